@@ -147,7 +147,7 @@ def cranium():
     return Volume("cranium", _as_array(content, "i2", False, (256, 256, 108)), (1.5, 0.95703, 0.95703))
 
 
-def test_volumes(paths=()):
+def sample_volumes(paths=()):
     """The volumes that the CT experiments run on, and a note for each one that is absent."""
     volumes, notes = [], []
     if CRANIUM.exists():

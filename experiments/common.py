@@ -104,7 +104,7 @@ def average_down(array):
 
 def new_figure(columns=1, rows=1, width=3.4, height=3.4):
     """A figure and its axes (always a 2-D array), in the style of all pictures here."""
-    plt.rcParams.update({"font.size": 9, "axes.titlesize": 9, "savefig.dpi": 100, "figure.autolayout": True})
+    plt.rcParams.update({"font.size": 9, "axes.titlesize": 9, "savefig.dpi": 100, "savefig.bbox": "tight"})
     return plt.subplots(rows, columns, figsize=(width * columns, height * rows), squeeze=False)
 
 

@@ -25,6 +25,7 @@ BOXES = {
 }
 SOLID_CENTRE, SOLID_RADIUS = (66, 26, 26), 16
 RAMP_CENTRE, RAMP_RADIUS = (66, 66, 66), 20
+LEFT_X, SEAM_Y, RIGHT_X = 20, 44, 66  # the picture: the slice at LEFT_X up to SEAM_Y, then the one at RIGHT_X
 
 PAPER_LINEAR_RANGE = (-0.31, 1.5)
 REFERENCE_LINEAR_RANGE = (-0.3127940520644188, 1.5234947204589844)
@@ -48,17 +49,16 @@ def phantom(size=DESIGN_SIZE, kind=np.float64):
 
 
 def every_object(volume):
-    """One image [z, y] that cuts all six objects: the left half at the solid sphere's x, the right at the ramp's."""
+    """One image [z, y] that cuts all six objects: two slices of constant x, side by side."""
     scale = volume.shape[0] / DESIGN_SIZE
-    left, right = (round((centre[2] + 0.5) * scale) for centre in (SOLID_CENTRE, RAMP_CENTRE))
-    half = volume.shape[1] // 2
-    return np.concatenate([volume[:, :half, left], volume[:, half:, right]], axis=1)
+    seam, left, right = (round(position * scale) for position in (SEAM_Y, LEFT_X, RIGHT_X))
+    return np.concatenate([volume[:, :seam, left], volume[:, seam:, right]], axis=1)
 
 
 def draw(volumes, output_folder, file):
     """The slices side by side: grey from 0 to 1, one colour for values below and one for values above."""
     grey = common.plt.get_cmap("gray").with_extremes(under=common.BELOW_COLOUR, over=common.ABOVE_COLOUR)
-    figure, axes = common.new_figure(columns=len(volumes))
+    figure, axes = common.new_figure(columns=len(volumes), width=4.0, height=4.3)
     for panel, (title, volume) in zip(axes[0], volumes.items()):
         title = f"{title}\n{volume.min():.4g} … {volume.max():.4g}"
         common.show_slice(panel, every_object(volume), title, cmap=grey, vmin=0.0, vmax=1.0)

@@ -37,6 +37,23 @@ LINEAR_COLOUR, NONOSCILLATORY_COLOUR = "tab:blue", "tab:red"
 BELOW_COLOUR, ABOVE_COLOUR = "#2a7fff", "#ff3b30"
 
 
+# The metrics of CompareVolumes as table columns: key, heading, factor, format.
+_METRICS = (
+    ("psnr_db", "PSNR / dB", 1.0, ".1f"),
+    ("relative_l2_error", "relative L2 / %", 100.0, ".2f"),
+    ("median_relative_error", "median error / %", 100.0, ".3f"),
+    ("q99_relative_error", "99 % quantile / %", 100.0, ".2f"),
+    ("relative_total_variation", "relative TV / %", 100.0, ".1f"),
+    ("test_minimum", "minimum", 1.0, ".5g"),
+    ("test_maximum", "maximum", 1.0, ".5g"),
+)
+METRIC_COLUMNS = [(heading, form) for _, heading, _, form in _METRICS]
+METRICS_TEXT = (
+    "PSNR's peak is the reference's range; a voxel's error is relative to that peak; "
+    "relative TV is the total variation as a share of the reference's."
+)
+
+
 class ProgramError(Exception):
     """A program that is missing or failed, in one line."""
 
@@ -88,6 +105,21 @@ def compare(reference, test):
         for path, array in zip(paths, (reference, test)):
             write_volume(path, np.asarray(array))
         return json.loads(_run([tool, *paths, "--json"]))
+
+
+def metric_cells(metrics):
+    """The metrics in the order of METRIC_COLUMNS; one that is not there is an empty cell."""
+    return [None if metrics.get(key) is None else factor * metrics[key] for key, _, factor, _ in _METRICS]
+
+
+def side_by_side(first, second, keys, first_name, second_name):
+    """A sentence with both values of some metrics."""
+    parts = [
+        f"{heading.replace(' / ', ' in ')}: {factor * first[key]:{form}} and {factor * second[key]:{form}}"
+        for key, heading, factor, form in _METRICS
+        if key in keys
+    ]
+    return f"{first_name.capitalize()} and {second_name}: " + "; ".join(parts) + "."
 
 
 def interpolate(array, order):

@@ -93,7 +93,7 @@ def _draw_tensions(volume, measured, output_folder):
         panel.set(xscale="log", xlabel="tension", ylabel=heading)
         panel.set_xticks(tensions, [f"{tension:g}" for tension in tensions], minor=False)
         panel.minorticks_off()
-    figure.legend(*axes[0][0].get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, 0.02), ncol=3)
+    figure.legend(*axes[0][0].get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, -0.02), ncol=3)
     figure.suptitle(volume.name)
     return common.save_figure(figure, output_folder, f"subsampling_tension_{volume.name}.png")
 

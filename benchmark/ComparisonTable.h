@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef ComparisonTable_h
+#define ComparisonTable_h
+
+#include <benchmark/benchmark.h>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace subdivision_benchmark
+{
+
+/** Prints, when all is measured, one line a row: the median time, how many times as fast as ExpandImageFilter with
+ * linear interpolation on the same workload and memory, the page faults of one update, and the system's share of the
+ * processor time. */
+class ComparisonTable : public benchmark::BenchmarkReporter
+{
+public:
+  bool
+  ReportContext(const Context & context) override;
+
+  void
+  ReportRuns(const std::vector<Run> & runs) override;
+
+  void
+  Finalize() override;
+
+private:
+  struct Line
+  {
+    /** Filter name, and `/pixel/size/threads/memory`. */
+    std::string Filter;
+    std::string Workload;
+    double      Seconds;
+    double      MinorFaults;
+    double      SystemShare;
+  };
+
+  void
+  PrintLine(const Line & line);
+
+  /** By the order of registration. */
+  std::map<std::int64_t, Line> m_Lines;
+  /** ExpandImageFilter's times by workload. */
+  std::map<std::string, double> m_ReferenceSeconds;
+};
+
+} // namespace subdivision_benchmark
+
+#endif

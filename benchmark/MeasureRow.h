@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef MeasureRow_h
+#define MeasureRow_h
+
+#include "BenchmarkRow.h"
+
+namespace benchmark
+{
+class State;
+}
+
+namespace subdivision_benchmark
+{
+
+/** Times one repetition of a row: `Update()` alone, without setting up and without releasing the output.
+ * Its counters, all for one update: `lane_operations` (where the row knows them), `minor_faults`, `user_seconds` and
+ * `system_seconds`. */
+void
+MeasureRow(benchmark::State & state, const BenchmarkRow & row, const Workload & workload, OutputMemory memory);
+
+} // namespace subdivision_benchmark
+
+#endif

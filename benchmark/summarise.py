@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Prints what CompareUpsampling measured (its --benchmark_out file) as Markdown tables. It judges nothing."""
+
+import argparse
+import json
+import statistics
+import sys
+from collections import defaultdict
+
+REFERENCE = "ExpandLinear"
+SUBJECT = "NonOscillatory"
+PEAK = "MultiplyAddPeak@"
+
+
+class Row:
+    """The repetitions of one row; times in seconds for one update."""
+
+    def __init__(self):
+        self.times = []
+        self.processor_times = []
+        self.faults = []
+        self.lane_operations = None
+
+    def add(self, run):
+        seconds_a_unit = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}[run["time_unit"]]
+        self.times.append(run["real_time"] * seconds_a_unit)
+        self.processor_times.append(run.get("user_seconds", 0.0) + run.get("system_seconds", 0.0))
+        self.faults.append(run.get("minor_faults", 0.0))
+        self.lane_operations = run.get("lane_operations")
+
+    @property
+    def time(self):
+        return statistics.median(self.times)
+
+
+def read_rows(runs):
+    """Sorts runs into {workload: {memory: {filter: Row}}} and the peaks {threads: {target: Row}}."""
+    workloads = defaultdict(lambda: defaultdict(lambda: defaultdict(Row)))
+    peaks = defaultdict(lambda: defaultdict(Row))
+    # Shuffled repetitions come in any order; families are numbered as the rows were registered.
+    for run in sorted(runs, key=lambda run: run["family_index"]):
+        if run["run_type"] != "iteration" or run.get("error_occurred") or run.get("skipped"):
+            continue
+        parts = run["name"].split("/")
+        if parts[0].startswith(PEAK):
+            peaks[parts[1]][parts[0][len(PEAK) :]].add(run)
+        else:
+            name, pixel, size, threads, memory = parts[:5]
+            workloads[pixel, int(size), threads][memory][name].add(run)
+    return workloads, peaks
+
+
+def milliseconds(row):
+    return f"{1e3 * row.time:.2f}" if row else ""
+
+
+def ratio(slower, faster):
+    return f"{slower.time / faster.time:.2f}" if slower and faster else ""
+
+
+def fresh_memory_share(fresh, reused):
+    """The part of a fresh update that goes away when the output memory is reused."""
+    return f"{100 * (1 - reused.time / fresh.time):.0f} %" if fresh and reused else ""
+
+
+def used_target(name, context):
+    return name.partition("@")[2] or context["kernel_target"]
+
+
+def floor_and_share(name, row, peaks, context):
+    """The time that the row's lane operations take at the peak of the row's instruction set, and its share of the
+    measured time."""
+    peak = peaks.get(used_target(name, context))
+    if not (row and row.lane_operations and peak):
+        return "", ""
+    floor = row.lane_operations * peak.time / peak.lane_operations
+    return f"{1e3 * floor:.2f}", f"{100 * floor / row.time:.0f} %"
+
+
+def print_table(header, rows):
+    print("| " + " | ".join(header) + " |")
+    print("|" + "---|" + "---:|" * (len(header) - 1))
+    for row in rows:
+        print("| " + " | ".join(row) + " |")
+    print()
+
+
+def print_workload(workload, memories, peaks, context):
+    pixel, size, threads = workload
+    print(f"## {size}³ {pixel}, {threads.replace(':', ' ')}\n")
+    fresh, reused = memories["fresh"], memories["reused"]
+    lines = []
+    for name in dict.fromkeys([*fresh, *reused]):
+        new, old = fresh.get(name), reused.get(name)
+        lines.append(
+            [
+                name,
+                milliseconds(new),
+                milliseconds(old),
+                ratio(fresh.get(REFERENCE), new),
+                ratio(reused.get(REFERENCE), old),
+                ratio(new, fresh.get(SUBJECT)),
+                ratio(old, reused.get(SUBJECT)),
+                f"{1e9 * old.time / size**3:.2f}" if old else "",
+                f"{statistics.median(new.faults):.0f}" if new else "",
+                fresh_memory_share(new, old),
+                *floor_and_share(name, old, peaks, context),
+            ]
+        )
+    header = (
+        "row, fresh ms, reused ms, speed fresh, speed reused, times slower fresh, times slower reused, "
+        "ns a voxel, faults, fresh memory, floor ms, floor / reused"
+    )
+    print_table(header.split(", "), lines)
+
+
+def print_spread(workload, memories):
+    pixel, size, threads = workload
+    lines = []
+    for memory, rows in memories.items():
+        for name, row in rows.items():
+            times = [f"{1e3 * t:.2f}" for t in (min(row.times), row.time, max(row.times))]
+            processor = f"{1e3 * statistics.median(row.processor_times):.2f}"
+            lines.append([f"{name}, {memory}", str(len(row.times)), *times, processor])
+    print(f"## Spread: {size}³ {pixel}, {threads.replace(':', ' ')}\n")
+    print_table(["row", "repetitions", "least ms", "median ms", "most ms", "processor ms"], lines)
+
+
+def print_peaks(peaks):
+    print("## Multiply-add peak\n")
+    lines = [
+        [target, threads.partition(":")[2], f"{row.lane_operations / row.time / 1e9:.1f}"]
+        for threads, targets in peaks.items()
+        for target, row in targets.items()
+    ]
+    print_table(["instruction set", "threads", "10⁹ lanes a second"], lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("json", help="the file that CompareUpsampling wrote with --benchmark_out")
+    parser.add_argument("--spread", action="store_true", help="print least and most times and processor times, too")
+    arguments = parser.parse_args()
+    try:
+        with open(arguments.json, encoding="utf-8") as file:
+            results = json.load(file)
+    except (OSError, ValueError) as error:
+        sys.exit(f"{arguments.json}: {error}")
+
+    context = results["context"]
+    for key in ("processor", "kernel_target", "itk", "compiler", "transparent_huge_pages"):
+        print(f"- {key.replace('_', ' ')}: {context[key]}")
+    print(f"- load average at the start: {context['load_avg'][0]:.1f}\n")
+    workloads, peaks = read_rows(results["benchmarks"])
+    for workload, memories in workloads.items():
+        print_workload(workload, memories, peaks[workload[2]], context)
+    if arguments.spread:
+        for workload, memories in workloads.items():
+            print_spread(workload, memories)
+    print_peaks(peaks)
+
+
+if __name__ == "__main__":
+    main()

@@ -72,8 +72,8 @@ def program(name, variable):
 def _run(arguments):
     done = subprocess.run([str(a) for a in arguments], capture_output=True, text=True, check=False)
     if done.returncode != 0:
-        reason = done.stderr.strip() or f"exit status {done.returncode}"
-        raise ProgramError(f"{pathlib.Path(arguments[0]).name}: {reason}")
+        silent = f"{pathlib.Path(arguments[0]).name}: exit status {done.returncode}"
+        raise ProgramError(done.stderr.strip() or silent)
     return done.stdout
 
 

@@ -55,12 +55,12 @@ def bring_back(volume, setting):
     return measured
 
 
-def _tables_entry(volume_name, label, tension, metrics):
+def _row(volume_name, label, tension, metrics):
     return [volume_name, label, tension, *common.metric_cells(metrics)]
 
 
 def _table(rows):
-    paper = [_tables_entry(PAPER_VOLUME, common.SCHEMES[name], None, metrics) for name, metrics in PAPER.items()]
+    paper = [_row(PAPER_VOLUME, common.SCHEMES[name], None, metrics) for name, metrics in PAPER.items()]
     columns = [("volume", ""), ("method", ""), ("tension", "g"), *common.METRIC_COLUMNS]
     caption = "Averaged 2×2×2 and brought back, compared with the original."
     return Table("subsampling", caption, columns, paper + rows)
@@ -112,8 +112,8 @@ def _order_findings(volume, linear, nonoscillatory):
         Finding(
             f"{volume.name}: the linear scheme has the higher PSNR.",
             gap > 0.0,
-            f"By {gap:.1f} dB here, {paper_gap:.1f} dB in the paper. Near a jump the non-oscillatory scheme falls back on "
-            "its B-spline part, a low-pass that blurs the edge further; the linear scheme sharpens it again.",
+            f"By {gap:.1f} dB here, {paper_gap:.1f} dB in the paper. Near a jump the non-oscillatory scheme falls back "
+            "on its B-spline part, a low-pass that blurs the edge further; the linear scheme sharpens it again.",
         ),
         Finding(
             f"{volume.name}: the linear scheme has the higher total variation.",
@@ -133,19 +133,21 @@ def _ranking(volume, measured):
     default = (common.SCHEMES["nonoscillatory"], DEFAULT_TENSION)
     psnr = {key[0]: entry[0]["psnr_db"] for key, entry in measured.items() if key[1] is None or key == default}
     ordered = sorted(psnr, key=psnr.get, reverse=True)
-    return Text(f"{volume.name}, from the highest PSNR down: " + ", ".join(f"{m} ({psnr[m]:.1f})" for m in ordered) + ".")
+    listed = ", ".join(f"{method} ({psnr[method]:.1f})" for method in ordered)
+    return Text(f"{volume.name}, from the highest PSNR down: {listed}.")
 
 
 def run(setting, output_folder, paths=()):
     """All methods on the sample volumes and on those given; regions of them in the small setting."""
     volumes, notes = sample_volumes(paths)
     result = Result("Subsampling (the paper's Table 1 and Figure 5)")
-    result.add(Text(f"{READING} Tension {DEFAULT_TENSION:g} where none is named. {common.METRICS_TEXT}"), *map(Text, notes))
+    result.add(Text(f"{READING} Tension {DEFAULT_TENSION:g} where none is named. {common.METRICS_TEXT}"))
+    result.add(*map(Text, notes))
     rows, findings, pictures, rankings = [], [], [], []
     for volume in volumes:
         volume = central_region(volume, SMALL_REGION if setting == "small" else max(volume.data.shape))
         measured = bring_back(volume, setting)
-        rows += [_tables_entry(volume.name, *key, entry[0]) for key, entry in measured.items()]
+        rows += [_row(volume.name, *key, entry[0]) for key, entry in measured.items()]
         linear = measured[common.SCHEMES["linear"], None][0]
         findings += _order_findings(volume, linear, measured[common.SCHEMES["nonoscillatory"], DEFAULT_TENSION][0])
         rankings.append(_ranking(volume, measured))

@@ -76,7 +76,8 @@ class Volumes(FolderTest):
         (self.folder / "cut.mha").write_bytes(whole[:-100])
         (self.folder / "a.txt").write_text("no volume")
         (self.folder / "empty.nrrd").write_text("")
-        for name, reason in (("cut.mha", "truncated"), ("a.txt", "file type"), ("b.mha", "No such"), ("empty.nrrd", "")):
+        reasons = {"cut.mha": "truncated", "a.txt": "file type", "b.mha": "No such", "empty.nrrd": "not an NRRD"}
+        for name, reason in reasons.items():
             with self.assertRaisesRegex(volumes.VolumeError, f"^.*{name}: .*{reason}.*$"):
                 volumes.read_volume(self.folder / name)
 

@@ -147,9 +147,60 @@ def draw(placed, found, output_folder):
     return rendering.draw(panels, view, scale, len(panels), output_folder, "metrology.png")
 
 
+def method_text(setting):
+    """What was done, in words."""
+    return Text(
+        f"{setting.scans} synthetic scans of {setting.size}³ voxels of {setting.voxel * MICROMETRES:.0f} µm, each of the"
+        f" specimen in another pose: partial-volume voxels, a Gaussian blur of {specimen.BLUR_VOXELS:g} voxels, white"
+        f" noise of {100 * specimen.NOISE:g} % of the contrast (chosen to give the original at 50 µm about the paper's"
+        " roundness), 16 bit. The surface is the isosurface half-way between air and metal; planes and cylinders are"
+        " fitted to its points by least squares. Roundness is the largest minus the smallest distance of a cylinder's"
+        " points from its fitted axis; perpendicularity, how far a face leans from rim to rim against the axis of the"
+        " largest step; concentricity, twice the largest distance of another cylinder's axis from it. The exact value"
+        " of these three is 0."
+    )
+
+
+def findings(deviations, setting):
+    """The paper's comparison of the non-oscillatory scheme with the original, and ours."""
+
+    def averages(quantity):
+        return [statistics(deviations[quantity, method])[0] for method in ("original", "nonoscillatory")]
+
+    before, after = averages("diameter")
+    bias = [deviations["diameter", method].mean() for method in ("original", "nonoscillatory")]
+    yield Finding(
+        "Non-oscillatory subdivision hardly changes the diameters' average deviation (paper: 7.91 to 8.07 µm), by less"
+        " than a hundredth of a voxel.",
+        bool(abs(after - before) < 0.01 * setting.voxel * MICROMETRES),
+        f"Here {before:.2f} to {after:.2f} µm. Both come out too small (bias {bias[0]:.2f} and {bias[1]:.2f} µm): blur"
+        " moves a curved surface towards its centre of curvature, and the scheme's B-spline masks add to that.",
+    )
+    before, after = averages("roundness")
+    yield Finding(
+        "Non-oscillatory subdivision makes roundness worse (paper: 23.3 to 28.94 µm).",
+        bool(after > before),
+        f"Here {before:.2f} to {after:.2f} µm. White noise alone makes the roundness of these scans, and the scheme does"
+        " not amplify it; the paper's scans also carry artefacts of real scanners that this model lacks.",
+    )
+    before, after = averages("distance")
+    yield Finding(
+        "Non-oscillatory subdivision makes the distances of planes worse (paper: 5.90 to 10.1 µm).",
+        bool(after > before),
+        f"Here {before:.2f} to {after:.2f} µm, far below the paper's: a fit averages the noise of thousands of points,"
+        " and there is no error of scale, no beam hardening and no form error in these scans.",
+    )
+
+
 def run(setting, output_folder):
     chosen = SETTINGS[setting]
     deviations, (placed, found) = measure_scans(chosen)
     result = Result("Metrology: a specimen of known geometry (Table 3, Figure 8)")
-    result.add(table(deviations), Picture(draw(placed, found, output_folder), "First scan"))
+    caption = "The first scan's surfaces, coloured by their distance from the exact specimen (positive: too much metal)"
+    result.add(
+        method_text(chosen),
+        table(deviations),
+        Picture(draw(placed, found, output_folder), caption),
+        *findings(deviations, chosen),
+    )
     return result

@@ -89,8 +89,6 @@ def _actor(panel, scale):
     actor = vtkActor()
     actor.SetMapper(mapper)
     actor.GetProperty().SetInterpolationToFlat()
-    actor.GetProperty().SetSpecular(0.25)
-    actor.GetProperty().SetSpecularPower(30)
     return actor
 
 

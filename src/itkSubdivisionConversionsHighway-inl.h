@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+
+// Conversions of rows of pixels from and to float. No include guard: every target includes this file once, into its own
+// namespace.
+
+namespace itk
+{
+namespace HWY_NAMESPACE
+{
+
+using FloatTag = hn::ScalableTag<float>;
+using IntegerTag = hn::ScalableTag<std::int32_t>;
+
+/** As many pixels as there are lanes of float. */
+template <typename TPixel>
+using PixelTag = hn::Rebind<TPixel, FloatTag>;
+
+template <typename TPixel>
+HWY_INLINE hn::Vec<FloatTag>
+ConvertLanes(const TPixel * in)
+{
+  return hn::ConvertTo(FloatTag(), hn::PromoteTo(IntegerTag(), hn::LoadU(PixelTag<TPixel>(), in)));
+}
+
+HWY_INLINE hn::Vec<FloatTag>
+ConvertLanes(const float * in)
+{
+  return hn::LoadU(FloatTag(), in);
+}
+
+template <typename TPixel>
+void
+ConvertRow(const TPixel * in, std::size_t count, float * out)
+{
+  const std::size_t lanes = hn::Lanes(FloatTag());
+  std::size_t       x = 0;
+  for (; x + lanes <= count; x += lanes)
+  {
+    hn::StoreU(ConvertLanes(in + x), FloatTag(), out + x);
+  }
+  for (; x < count; ++x)
+  {
+    out[x] = static_cast<float>(in[x]);
+  }
+}
+
+/** Rounds to nearest, ties to even, within the range of the pixel type; NaN becomes 0. */
+template <typename TPixel>
+HWY_INLINE hn::Vec<IntegerTag>
+RoundLanes(hn::Vec<FloatTag> value)
+{
+  constexpr FloatTag d;
+  if (std::is_signed<TPixel>::value)
+  {
+    value = hn::IfThenElseZero(hn::Eq(value, value), value);
+  }
+  // For unsigned pixels the lower bound turns NaN into 0.
+  value = OrderedMax(value, hn::Set(d, static_cast<float>(hwy::LowestValue<TPixel>())));
+  value = OrderedMin(value, hn::Set(d, static_cast<float>(hwy::HighestValue<TPixel>())));
+  return hn::NearestInt(value);
+}
+
+/** Stores both children of one vector of voxels. */
+template <typename TPixel>
+HWY_INLINE void
+StoreChildren(hn::Vec<FloatTag> lower, hn::Vec<FloatTag> upper, TPixel * out)
+{
+  // A pair of children fills half a lane or a whole one, the lower child first: Highway's targets are little-endian.
+  constexpr int  bits = 8 * sizeof(TPixel);
+  constexpr auto mask = (1 << bits) - 1;
+  const auto     pairs = hn::Or(hn::And(RoundLanes<TPixel>(lower), hn::Set(IntegerTag(), mask)),
+                            hn::ShiftLeft<bits>(RoundLanes<TPixel>(upper)));
+  if constexpr (sizeof(TPixel) == 2)
+  {
+    hn::StoreU(pairs, IntegerTag(), reinterpret_cast<std::int32_t *>(out));
+  }
+  else
+  {
+    constexpr hn::Rebind<std::int16_t, IntegerTag> half;
+    // Sign-extend, so that narrowing does not saturate.
+    const auto narrow = hn::DemoteTo(half, hn::ShiftRight<16>(hn::ShiftLeft<16>(pairs)));
+    hn::StoreU(narrow, half, reinterpret_cast<std::int16_t *>(out));
+  }
+}
+
+HWY_INLINE void
+StoreChildren(hn::Vec<FloatTag> lower, hn::Vec<FloatTag> upper, float * out)
+{
+  hn::StoreInterleaved2(lower, upper, FloatTag(), out);
+}
+
+template <typename TPixel>
+void
+InterleaveChildren(const float * lower, const float * upper, std::size_t count, TPixel * out)
+{
+  const std::size_t lanes = hn::Lanes(FloatTag());
+  std::size_t       x = 0;
+  for (; x + lanes <= count; x += lanes)
+  {
+    StoreChildren(hn::LoadU(FloatTag(), lower + x), hn::LoadU(FloatTag(), upper + x), out + 2 * x);
+  }
+  if (x < count)
+  {
+    // The rows of children are padded to whole vectors, the pixels are not.
+    TPixel last[2 * HWY_MAX_BYTES / sizeof(float)];
+    StoreChildren(hn::LoadU(FloatTag(), lower + x), hn::LoadU(FloatTag(), upper + x), last);
+    std::memcpy(out + 2 * x, last, 2 * (count - x) * sizeof(TPixel));
+  }
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace itk

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "itkSubdivisionKernel.h"
+
+#include "itkSubdivisionMasks.h"
+#include "itkSubdivisionSweep.h"
+#include "itkHugePages.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+
+#if defined(__unix__) || defined(__APPLE__)
+#  include <unistd.h>
+#endif
+
+namespace itk
+{
+namespace
+{
+
+using SchemeEnum = NonOscillatorySubdivisionImageFilterEnums::Scheme;
+
+/** All usable targets, the fastest first. */
+const std::vector<const SubdivisionTarget *> &
+Targets()
+{
+  static const std::vector<const SubdivisionTarget *> targets = [] {
+    constexpr int                          maximum = 16;
+    std::vector<const SubdivisionTarget *> all;
+#ifdef NonOscillatorySubdivision_HAS_HIGHWAY
+    all.resize(maximum);
+    all.resize(GetVectorisedSubdivisionTargets(all.data(), maximum));
+#else
+    all.reserve(maximum);
+#endif
+    all.push_back(&GetPortableSubdivisionTarget());
+    return all;
+  }();
+  return targets;
+}
+
+/** What was asked for with SetSubdivisionTarget; null stands for the fastest. */
+std::atomic<const SubdivisionTarget *> chosenTarget{ nullptr };
+
+const SubdivisionTarget &
+Target()
+{
+  const SubdivisionTarget * const chosen = chosenTarget;
+  return chosen ? *chosen : *Targets().front();
+}
+
+template <typename T>
+const SubdivisionSweepSteps<T> &
+Steps(const SubdivisionTarget & target);
+
+template <>
+const SubdivisionSweepSteps<float> &
+Steps(const SubdivisionTarget & target)
+{
+  return target.Float;
+}
+
+template <>
+const SubdivisionSweepSteps<double> &
+Steps(const SubdivisionTarget & target)
+{
+  return target.Double;
+}
+
+constexpr std::size_t CacheLine = 64;
+
+/** Zeroed memory, aligned to cache lines, given out piece by piece. A first pass with no memory behind it counts. */
+template <typename T>
+class Arena
+{
+public:
+  T *
+  Take(const std::size_t count)
+  {
+    constexpr std::size_t line = CacheLine / sizeof(T);
+    T * const             piece = m_Begin ? m_Begin + m_Used : nullptr;
+    m_Used += (count + line - 1) / line * line;
+    return piece;
+  }
+
+  void
+  Allocate()
+  {
+    m_Memory = AllocateOnHugePages(m_Used * sizeof(T));
+    m_Begin = static_cast<T *>(m_Memory.get());
+    std::memset(m_Memory.get(), 0, m_Used * sizeof(T));
+    m_Used = 0;
+  }
+
+private:
+  HugePageMemory m_Memory;
+  T *            m_Begin{ nullptr };
+  std::size_t    m_Used{ 0 };
+};
+
+/** Vectors reach this many bytes beyond what they are asked for. */
+constexpr std::size_t WidestVector = 64;
+
+std::size_t
+SecondLevelCacheSize()
+{
+#ifdef _SC_LEVEL2_CACHE_SIZE
+  const long size = sysconf(_SC_LEVEL2_CACHE_SIZE);
+  if (size > 0)
+  {
+    return static_cast<std::size_t>(size);
+  }
+#endif
+  return std::size_t{ 512 } << 10;
+}
+
+} // namespace
+
+std::vector<std::string>
+GetSubdivisionTargets()
+{
+  std::vector<std::string> names;
+  for (const SubdivisionTarget * const target : Targets())
+  {
+    names.emplace_back(target->Name);
+  }
+  return names;
+}
+
+void
+SetSubdivisionTarget(const std::string & name)
+{
+  if (name.empty())
+  {
+    chosenTarget = nullptr;
+    return;
+  }
+  for (const SubdivisionTarget * const target : Targets())
+  {
+    if (name == target->Name)
+    {
+      chosenTarget = target;
+      return;
+    }
+  }
+  throw std::invalid_argument("no subdivision target \"" + name + "\" on this processor");
+}
+
+std::string
+GetSubdivisionTarget()
+{
+  return Target().Name;
+}
+
+template <typename TReal>
+struct SubdivisionKernel<TReal>::Implementation
+{
+  const SubdivisionSweepSteps<TReal> & Steps;
+  SubdivisionSweep<TReal>              Sweep{};
+  std::ptrdiff_t                       Radius;
+  Arena<TReal>                         Memory;
+
+  Implementation(SchemeEnum scheme, double tension, unsigned int numberOfAxes, std::size_t width, std::size_t height)
+    : Steps(itk::Steps<TReal>(Target()))
+    , Radius(GetRadius(scheme))
+  {
+    Sweep.Scheme = scheme;
+    Sweep.Tension = tension;
+    Sweep.HasRowAxis = numberOfAxes > 2;
+    Sweep.HasSweepAxis = numberOfAxes > 1;
+    LayOut(width, Sweep.HasRowAxis ? height : 1);
+    Memory.Allocate();
+    LayOut(width, Sweep.HasRowAxis ? height : 1);
+  }
+
+  /** Gives every ring and row its memory. */
+  void
+  LayOut(const std::size_t width, const std::size_t height)
+  {
+    constexpr std::size_t line = CacheLine / sizeof(TReal);
+    constexpr std::size_t halo = (SubdivisionMasks::ThresholdedRadius + line) / line * line;
+    constexpr std::size_t overrun = WidestVector / sizeof(TReal);
+    const std::size_t     rowLength = (halo + width + SubdivisionMasks::ThresholdedRadius + overrun + line) / line * line;
+    const std::size_t     rowHalo = Sweep.HasRowAxis ? SubdivisionMasks::ThresholdedRadius : 0;
+    Sweep.Pitch = static_cast<std::ptrdiff_t>(rowLength);
+
+    const auto row = [&] { return Memory.Take(rowLength) + halo; };
+    const auto plane = [&] { return Memory.Take(rowLength * (height + 2 * rowHalo)) + rowHalo * rowLength + halo; };
+    const auto ring = [](auto & entries, const auto & take) {
+      for (auto & entry : entries.Entry)
+      {
+        entry = take();
+      }
+    };
+
+    const bool isThresholded = Sweep.Scheme == SchemeEnum::NonOscillatory;
+    const bool isBounded = Sweep.Scheme == SchemeEnum::BoundedLinear;
+    auto &     rows = Sweep.Rows;
+    ring(Sweep.Input, plane);
+    for (int subset = 0; subset < SubsetsInPlane; ++subset)
+    {
+      ring(Sweep.FlatChildren[subset], plane);
+      if (isThresholded)
+      {
+        ring(Sweep.SteepChildren[subset], plane);
+        ring(Sweep.SteepMinima[subset], plane);
+        Sweep.SlopeSums[subset] = plane();
+        rows.Sums[subset] = row();
+        rows.Limited[subset] = row();
+      }
+      Sweep.Children[0][subset] = row();
+      Sweep.Children[1][subset] = row();
+    }
+    ring(rows.Values[0], row);
+    ring(rows.Values[1], row);
+    if (isThresholded)
+    {
+      ring(rows.Slope, row);
+      rows.RowDifference = row();
+      rows.RowDifferenceSum = row();
+      ring(rows.RowAxisSums, row);
+      ring(rows.BothAxesSums, row);
+      ring(rows.SweepCurvature, row);
+      rows.RowCurvature = row();
+      ring(rows.SecondDifferences[0], row);
+      ring(rows.SecondDifferences[1], row);
+    }
+    if (isBounded)
+    {
+      ring(Sweep.SmallestNeighbour, plane);
+      ring(Sweep.LargestNeighbour, plane);
+      ring(rows.Smallest, row);
+      ring(rows.Largest, row);
+    }
+  }
+};
+
+template <typename TReal>
+SubdivisionKernel<TReal>::SubdivisionKernel(SchemeEnum   scheme,
+                                            double       tension,
+                                            unsigned int numberOfAxes,
+                                            std::size_t  maximumWidth,
+                                            std::size_t  maximumHeight)
+  : m_Implementation(new Implementation(scheme, tension, numberOfAxes, maximumWidth, maximumHeight))
+{}
+
+template <typename TReal>
+SubdivisionKernel<TReal>::~SubdivisionKernel() = default;
+
+template <typename TReal>
+unsigned int
+SubdivisionKernel<TReal>::GetRadius(SchemeEnum scheme)
+{
+  return scheme == SchemeEnum::NonOscillatory ? SubdivisionMasks::ThresholdedRadius : SubdivisionMasks::ValueRadius;
+}
+
+template <typename TReal>
+void
+SubdivisionKernel<TReal>::GetRecommendedTileSize(unsigned int numberOfAxes, std::size_t & width, std::size_t & height)
+{
+  // About this many values are kept for every voxel of a tile with three axes, the halo counted in; found by
+  // measurement to do as well as smaller and larger tiles.
+  constexpr std::size_t valuesPerVoxel = 110;
+  const std::size_t     voxels = SecondLevelCacheSize() / (valuesPerVoxel * sizeof(TReal));
+  constexpr std::size_t bestWidth = 56;
+  width = numberOfAxes > 2 ? bestWidth : 512;
+  height = numberOfAxes > 2 ? std::min<std::size_t>(std::max<std::size_t>(voxels / bestWidth, 8), 64) : 1;
+}
+
+template <typename TReal>
+void
+SubdivisionKernel<TReal>::StartTile(std::size_t width, std::size_t height)
+{
+  auto & sweep = m_Implementation->Sweep;
+  sweep.Width = static_cast<std::ptrdiff_t>(width);
+  sweep.Height = sweep.HasRowAxis ? static_cast<std::ptrdiff_t>(height) : 1;
+  sweep.Planes = 0;
+}
+
+template <typename TReal>
+TReal *
+SubdivisionKernel<TReal>::GetInputRow(std::ptrdiff_t row)
+{
+  const auto & sweep = m_Implementation->Sweep;
+  return sweep.Input[0] + row * sweep.Pitch;
+}
+
+template <typename TReal>
+bool
+SubdivisionKernel<TReal>::AdvancePlane()
+{
+  auto & sweep = m_Implementation->Sweep;
+  m_Implementation->Steps.AdvancePlane(sweep);
+  sweep.Input.Rotate();
+  return !sweep.HasSweepAxis || sweep.Planes > 2 * m_Implementation->Radius;
+}
+
+template <typename TReal>
+auto
+SubdivisionKernel<TReal>::ComputeChildren(std::size_t row) -> ChildRows
+{
+  const auto & sweep = m_Implementation->Sweep;
+  m_Implementation->Steps.ComputeChildren(sweep, static_cast<std::ptrdiff_t>(row));
+  ChildRows children{};
+  for (int sweepChild = 0; sweepChild < 2; ++sweepChild)
+  {
+    for (int rowChild = 0; rowChild < 2; ++rowChild)
+    {
+      const auto & planeChildren = sweep.Children[sweep.HasSweepAxis ? sweepChild : 0];
+      const int    lower = sweep.HasRowAxis ? rowChild * RowAxis : 0;
+      children.Rows[sweepChild][rowChild] = { planeChildren[lower], planeChildren[lower + LaneAxis] };
+    }
+  }
+  return children;
+}
+
+template class SubdivisionKernel<float>;
+template class SubdivisionKernel<double>;
+
+#define itkDefineSubdivisionConversions(TPixel, Name)                                              \
+  void ConvertRow(const TPixel * in, std::size_t count, float * out)                               \
+  {                                                                                                \
+    Target().Name.ConvertRow(in, count, out);                                                      \
+  }                                                                                                \
+  void InterleaveChildren(const float * lower, const float * upper, std::size_t count, TPixel * out) \
+  {                                                                                                \
+    Target().Name.InterleaveChildren(lower, upper, count, out);                                    \
+  }
+itkDefineSubdivisionConversions(std::uint8_t, UInt8)
+itkDefineSubdivisionConversions(std::int8_t, Int8)
+itkDefineSubdivisionConversions(std::uint16_t, UInt16)
+itkDefineSubdivisionConversions(std::int16_t, Int16)
+itkDefineSubdivisionConversions(float, Real)
+
+} // namespace itk

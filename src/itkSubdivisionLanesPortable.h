@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef itkSubdivisionLanesPortable_h
+#define itkSubdivisionLanesPortable_h
+
+// Vectors of a single lane: the compiler is left to vectorise the loops over rows.
+// Highway's names, so that the sweep is written once.
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#define SUBDIVISION_INLINE inline
+
+namespace itk
+{
+namespace SUBDIVISION_TARGET
+{
+
+template <typename T>
+using Vector = T;
+
+template <typename T>
+constexpr std::ptrdiff_t
+LaneCount()
+{
+  return 1;
+}
+
+template <typename T>
+inline T
+Load(const T * p)
+{
+  return *p;
+}
+
+template <typename T>
+inline void
+Store(T v, T * p)
+{
+  *p = v;
+}
+
+template <typename T>
+inline T
+Broadcast(double value)
+{
+  return static_cast<T>(value);
+}
+
+template <typename T>
+inline T
+Add(T a, T b)
+{
+  return a + b;
+}
+
+template <typename T>
+inline T
+Sub(T a, T b)
+{
+  return a - b;
+}
+
+template <typename T>
+inline T
+Mul(T a, T b)
+{
+  return a * b;
+}
+
+template <typename T>
+inline T
+MulAdd(T a, T b, T c)
+{
+  return a * b + c;
+}
+
+template <typename T>
+inline T
+NegMulAdd(T a, T b, T c)
+{
+  return c - a * b;
+}
+
+template <typename T>
+inline T
+Neg(T a)
+{
+  return -a;
+}
+
+template <typename T>
+inline T
+Abs(T a)
+{
+  return std::abs(a);
+}
+
+/** The second value where either is NaN. */
+template <typename T>
+inline T
+OrderedMin(T a, T b)
+{
+  return a < b ? a : b;
+}
+
+/** The second value where either is NaN. */
+template <typename T>
+inline T
+OrderedMax(T a, T b)
+{
+  return a > b ? a : b;
+}
+
+/** The replacement where \c v is finite, else \c v. */
+template <typename T>
+inline T
+IfFinite(T v, T replacement)
+{
+  return std::abs(v) <= std::numeric_limits<T>::max() ? replacement : v;
+}
+
+} // namespace SUBDIVISION_TARGET
+} // namespace itk
+
+#endif

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef itkSubdivisionSweep_h
+#define itkSubdivisionSweep_h
+
+#include "itkNonOscillatorySubdivisionImageFilterEnums.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace itk
+{
+
+/** The last few planes or rows of a sweep; entry 0 is the newest. */
+template <typename T, int VLength>
+struct SubdivisionRing
+{
+  static constexpr int Length = VLength;
+  T *                  Entry[VLength];
+
+  T *
+  operator[](int age) const
+  {
+    return Entry[age];
+  }
+
+  /** Makes room for a new entry, where the oldest one was. */
+  void
+  Rotate()
+  {
+    T * const oldest = Entry[VLength - 1];
+    for (int age = VLength - 1; age > 0; --age)
+    {
+      Entry[age] = Entry[age - 1];
+    }
+    Entry[0] = oldest;
+  }
+};
+
+/** The subsets of the axes {lane, row} that a field belongs to, as bits. */
+enum SubdivisionAxesInPlane
+{
+  NoAxisInPlane = 0,
+  LaneAxis = 1,
+  RowAxis = 2,
+  BothAxesInPlane = LaneAxis | RowAxis,
+  SubsetsInPlane = 4
+};
+
+/** All that a sweep through a tile keeps, as plain data that the code of every target can use.
+ *
+ * Planes and rows are addressed by their voxel (0, 0) or 0; row r of a plane begins r * Pitch further on. What is named
+ * after a plane index t is relative to the newest input plane. A field of the scheme (docs/scheme.md, section 3)
+ * belongs to a subset A of the axes; "flat" fields are those whose subset lacks the sweep axis, "steep" ones those
+ * whose subset has it. */
+template <typename T>
+struct SubdivisionSweep
+{
+  static constexpr int ThresholdedInputs = 5;
+  static constexpr int ValuePlanes = 7;
+  static constexpr int SecondDifferencePlanes = 5;
+  static constexpr int WindowPlanes = 5;
+  static constexpr int NeighbourPlanes = 5;
+
+  NonOscillatorySubdivisionImageFilterEnums::Scheme Scheme;
+
+  double         Tension;
+  bool           HasRowAxis;
+  bool           HasSweepAxis;
+  std::ptrdiff_t Width;
+  std::ptrdiff_t Height;
+  std::ptrdiff_t Pitch;
+
+  /** Planes taken since the tile began. */
+  std::ptrdiff_t Planes;
+
+  /** The input planes; the caller writes entry 0. */
+  SubdivisionRing<T, ThresholdedInputs> Input;
+
+  /** Children within their plane of the flat fields' sum, by [child], and of the steep fields' sum. */
+  SubdivisionRing<T, ValuePlanes>            FlatChildren[SubsetsInPlane];
+  SubdivisionRing<T, SecondDifferencePlanes> SteepChildren[SubsetsInPlane];
+
+  /** Block sums of the differences between the two newest input planes, by [subset in plane]. */
+  T * SlopeSums[SubsetsInPlane];
+  /** Window minima in the plane of the steep fields' block sums, by [subset in plane]. */
+  SubdivisionRing<T, WindowPlanes> SteepMinima[SubsetsInPlane];
+
+  /** Smallest and largest value of the neighbours in the plane (bounded linear scheme). */
+  SubdivisionRing<T, NeighbourPlanes> SmallestNeighbour;
+  SubdivisionRing<T, NeighbourPlanes> LargestNeighbour;
+
+  /** Rows that live while one plane is processed. */
+  struct RowBuffers
+  {
+    /** Differences between the two newest input planes. */
+    SubdivisionRing<T, 2> Slope;
+    /** Of the two newest rows: absolute differences, and block sums along the lanes of their differences. */
+    T * RowDifference;
+    T * RowDifferenceSum;
+    /** Block sums by [subset in plane]. */
+    T * Sums[SubsetsInPlane];
+    /** For the subsets with the row axis: block sums (their window minima along the lanes, if the subset has that
+     * axis too) of the last rows. */
+    SubdivisionRing<T, 5> RowAxisSums;
+    SubdivisionRing<T, 5> BothAxesSums;
+    /** Second differences along the sweep, and along rows of those or of the values. */
+    SubdivisionRing<T, 4> SweepCurvature;
+    T *                   RowCurvature;
+    /** Limited fields, by [subset in plane]. */
+    T * Limited[SubsetsInPlane];
+    /** Children along the lanes of the fields without and with the row axis. */
+    SubdivisionRing<T, 8> Values[2];
+    SubdivisionRing<T, 5> SecondDifferences[2];
+    /** Smallest and largest neighbour along the lanes. */
+    SubdivisionRing<T, 3> Smallest;
+    SubdivisionRing<T, 3> Largest;
+  } Rows;
+
+  /** Children of one row, by [child along the sweep][child in the plane]. */
+  T * Children[2][SubsetsInPlane];
+};
+
+/** What one instruction set offers: the two steps of a sweep and the conversions of pixels. */
+template <typename T>
+struct SubdivisionSweepSteps
+{
+  void (*AdvancePlane)(SubdivisionSweep<T> &);
+  void (*ComputeChildren)(const SubdivisionSweep<T> &, std::ptrdiff_t row);
+};
+
+template <typename TPixel>
+struct SubdivisionConversion
+{
+  void (*ConvertRow)(const TPixel *, std::size_t, float *);
+  void (*InterleaveChildren)(const float *, const float *, std::size_t, TPixel *);
+};
+
+struct SubdivisionTarget
+{
+  const char *                         Name;
+  SubdivisionSweepSteps<float>         Float;
+  SubdivisionSweepSteps<double>        Double;
+  SubdivisionConversion<std::uint8_t>  UInt8;
+  SubdivisionConversion<std::int8_t>   Int8;
+  SubdivisionConversion<std::uint16_t> UInt16;
+  SubdivisionConversion<std::int16_t>  Int16;
+  SubdivisionConversion<float>         Real;
+};
+
+/** The target that needs nothing but C++. */
+const SubdivisionTarget &
+GetPortableSubdivisionTarget();
+
+/** The vectorised targets that this processor supports, the fastest first. Returns how many were written. */
+int
+GetVectorisedSubdivisionTargets(const SubdivisionTarget ** targets, int maximum);
+
+} // namespace itk
+
+#endif

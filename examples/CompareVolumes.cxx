@@ -20,17 +20,17 @@
 namespace {
 struct Options
 {
-  std::string referencePath;
-  std::string testPath;
-  bool json{ false };
-  double peak{ 0.0 }; // 0: the range of the reference
+  std::string         referencePath;
+  std::string         testPath;
+  bool                json{ false };
+  double              peak{ 0.0 }; // 0: the range of the reference
   std::vector<double> quantileLevels;
-  bool useSpacing{ false };
+  bool                useSpacing{ false };
 };
 
 /** The median and the 99 % quantile are always computed, and come first. */
 std::vector<double>
-GetQuantileLevels(const Options& options)
+GetQuantileLevels(const Options & options)
 {
   std::vector<double> levels{ 0.5, 0.99 };
   levels.insert(levels.end(), options.quantileLevels.begin(), options.quantileLevels.end());
@@ -39,7 +39,7 @@ GetQuantileLevels(const Options& options)
 
 /** Reads the header. */
 itk::ImageIOBase::Pointer
-OpenScalarImage(const std::string& path)
+OpenScalarImage(const std::string & path)
 {
   const itk::ImageIOBase::Pointer io = itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::IOFileModeEnum::ReadMode);
   if (io == nullptr)
@@ -58,7 +58,7 @@ OpenScalarImage(const std::string& path)
 
 template <typename TImage>
 typename TImage::Pointer
-ReadImage(const std::string& path)
+ReadImage(const std::string & path)
 {
   const auto reader = itk::ImageFileReader<TImage>::New();
   reader->SetFileName(path);
@@ -79,10 +79,10 @@ ToJson(double value)
 
 template <typename TCalculator>
 void
-PrintJson(const TCalculator& calculator)
+PrintJson(const TCalculator & calculator)
 {
-  const std::vector<double>& levels = calculator.GetQuantileLevels();
-  const std::vector<double>& quantiles = calculator.GetRelativeErrorQuantiles();
+  const std::vector<double> & levels = calculator.GetQuantileLevels();
+  const std::vector<double> & quantiles = calculator.GetRelativeErrorQuantiles();
   std::cout << "{\n"
             << "  \"psnr_db\": " << ToJson(calculator.GetPeakSignalToNoiseRatio()) << ",\n"
             << "  \"relative_l2_error\": " << ToJson(calculator.GetRelativeL2Error()) << ",\n"
@@ -110,10 +110,10 @@ PrintJson(const TCalculator& calculator)
 
 template <typename TCalculator>
 void
-PrintText(const TCalculator& calculator)
+PrintText(const TCalculator & calculator)
 {
-  const std::vector<double>& levels = calculator.GetQuantileLevels();
-  const std::vector<double>& quantiles = calculator.GetRelativeErrorQuantiles();
+  const std::vector<double> & levels = calculator.GetQuantileLevels();
+  const std::vector<double> & quantiles = calculator.GetRelativeErrorQuantiles();
   std::cout << "PSNR: " << calculator.GetPeakSignalToNoiseRatio() << " dB (peak " << calculator.GetEffectivePeak()
             << ")\n"
             << "relative L2 error: " << 100.0 * calculator.GetRelativeL2Error() << " %\n";
@@ -132,7 +132,7 @@ PrintText(const TCalculator& calculator)
 
 template <typename TPixel, unsigned int VDimension>
 void
-Compare(const Options& options)
+Compare(const Options & options)
 {
   using ImageType = itk::Image<TPixel, VDimension>;
   const auto calculator = itk::ImageFidelityCalculator<ImageType>::New();
@@ -154,7 +154,7 @@ Compare(const Options& options)
 
 template <typename TPixel>
 void
-CompareInDimension(unsigned int dimension, const Options& options)
+CompareInDimension(unsigned int dimension, const Options & options)
 {
   switch (dimension)
   {
@@ -173,7 +173,7 @@ CompareInDimension(unsigned int dimension, const Options& options)
 
 /** Whether float holds every value of the image's type. */
 bool
-FitsInFloat(const itk::ImageIOBase& io)
+FitsInFloat(const itk::ImageIOBase & io)
 {
   switch (io.GetComponentType())
   {
@@ -189,10 +189,10 @@ FitsInFloat(const itk::ImageIOBase& io)
 }
 
 void
-Run(const Options& options)
+Run(const Options & options)
 {
-  const auto reference = OpenScalarImage(options.referencePath);
-  const auto test = OpenScalarImage(options.testPath);
+  const auto         reference = OpenScalarImage(options.referencePath);
+  const auto         test = OpenScalarImage(options.testPath);
   const unsigned int dimension = reference->GetNumberOfDimensions();
   if (test->GetNumberOfDimensions() != dimension)
   {
@@ -220,7 +220,7 @@ ToOneLine(std::string message)
     message.erase(0, end + 3);
   }
   std::istringstream words(message);
-  std::string line;
+  std::string        line;
   for (std::string word; words >> word;)
   {
     line += (line.empty() ? "" : " ") + word;
@@ -229,14 +229,14 @@ ToOneLine(std::string message)
 }
 
 int
-Fail(const std::string& message)
+Fail(const std::string & message)
 {
   std::cerr << "CompareVolumes: " << ToOneLine(message) << '\n';
   return EXIT_FAILURE;
 }
 
 void
-Describe(CLI::App& app, Options& options)
+Describe(CLI::App & app, Options & options)
 {
   app.add_option("REFERENCE", options.referencePath, "The image that is compared with.")->required();
   app.add_option("TEST", options.testPath, "The image that is judged: same size, same geometry.")->required();
@@ -251,9 +251,9 @@ Describe(CLI::App& app, Options& options)
 } // namespace
 
 int
-main(int argc, char* argv[])
+main(int argc, char * argv[])
 {
-  Options options;
+  Options  options;
   CLI::App app{ "Compares a volume with a reference: PSNR, relative L2 error, quantiles of |test - reference| / peak, "
                 "total variation, and ranges.",
                 "CompareVolumes" };
@@ -264,15 +264,15 @@ main(int argc, char* argv[])
     Run(options);
     return EXIT_SUCCESS;
   }
-  catch (const CLI::CallForHelp& help)
+  catch (const CLI::CallForHelp & help)
   {
     return app.exit(help);
   }
-  catch (const itk::ExceptionObject& error)
+  catch (const itk::ExceptionObject & error)
   {
     return Fail(error.GetDescription());
   }
-  catch (const std::exception& error)
+  catch (const std::exception & error)
   {
     return Fail(error.what());
   }

@@ -71,7 +71,7 @@ public:
 
   itkNewMacro(Self);
 
-  const char*
+  const char *
   GetNameOfClass() const override
   {
     return "ImageFidelityCalculator";
@@ -91,7 +91,7 @@ public:
 
   /** The levels, each in [0, 1], of the quantiles to compute. Default: 0.5 and 0.99. */
   void
-  SetQuantileLevels(const std::vector<double>& levels);
+  SetQuantileLevels(const std::vector<double> & levels);
   itkGetConstReferenceMacro(QuantileLevels, std::vector<double>);
 
   /** Whether the total variation is an integral in physical space. Default: false. */
@@ -136,7 +136,7 @@ public:
   }
 
   /** One quantile for each of the levels that the last Update() found set, in their order. */
-  const std::vector<double>&
+  const std::vector<double> &
   GetRelativeErrorQuantiles() const
   {
     return m_Figures.relativeErrorQuantiles;
@@ -195,7 +195,7 @@ protected:
   ~ImageFidelityCalculator() override = default;
 
   void
-  PrintSelf(std::ostream& os, Indent indent) const override;
+  PrintSelf(std::ostream & os, Indent indent) const override;
 
   void
   VerifyPreconditions() const override;
@@ -219,7 +219,7 @@ protected:
 
   /** Counts and sums one part of the piece, all rows of which are whole. Called by several threads. */
   void
-  ThreadedStreamedGenerateData(const RegionType& region) override;
+  ThreadedStreamedGenerateData(const RegionType & region) override;
 
 private:
   static constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
@@ -235,33 +235,33 @@ private:
     AddToRange(double value);
 
     void
-    Append(const ImageSummary& other);
+    Append(const ImageSummary & other);
   };
 
   /** What the first pass finds out about one row, or about several. */
   struct RowSummary
   {
-    ImageSummary reference{};
-    ImageSummary test{};
-    double squaredError{ 0.0 };
-    double squaredReference{ 0.0 };
+    ImageSummary  reference{};
+    ImageSummary  test{};
+    double        squaredError{ 0.0 };
+    double        squaredReference{ 0.0 };
     SizeValueType numberOfComparedVoxels{ 0 };
 
     void
-    Append(const RowSummary& other);
+    Append(const RowSummary & other);
   };
 
   /** The result. */
   struct Figures
   {
-    ImageSummary reference{ NaN, NaN, NaN };
-    ImageSummary test{ NaN, NaN, NaN };
-    double peak{ NaN };
-    double peakSignalToNoiseRatio{ NaN };
-    double relativeL2Error{ NaN };
+    ImageSummary        reference{ NaN, NaN, NaN };
+    ImageSummary        test{ NaN, NaN, NaN };
+    double              peak{ NaN };
+    double              peakSignalToNoiseRatio{ NaN };
+    double              relativeL2Error{ NaN };
     std::vector<double> relativeErrorQuantiles{};
-    SizeValueType numberOfComparedVoxels{ 0 };
-    SizeValueType numberOfExcludedVoxels{ 0 };
+    SizeValueType       numberOfComparedVoxels{ 0 };
+    SizeValueType       numberOfExcludedVoxels{ 0 };
   };
 
   /** A number for each voxel of a row of either image. */
@@ -286,9 +286,9 @@ private:
       , counts(std::move(zeros))
     {}
 
-    RowPair row;
-    RowPair nextRow;
-    RowPair squaredGradient;
+    RowPair                row;
+    RowPair                nextRow;
+    RowPair                squaredGradient;
     RadixQuantiles::Counts counts;
   };
 
@@ -297,37 +297,37 @@ private:
 
   /** The number of a row within the current piece. */
   SizeValueType
-  GetRowNumber(const IndexType& start) const;
+  GetRowNumber(const IndexType & start) const;
 
   template <typename TImage>
   static void
-  LoadRow(const TImage* image, const IndexType& start, std::vector<double>& row);
+  LoadRow(const TImage * image, const IndexType & start, std::vector<double> & row);
 
   /** Loads the row from both images, with NaN in both where a voxel is excluded. */
   void
-  LoadRowPair(const IndexType& start, RowPair& row) const;
+  LoadRowPair(const IndexType & start, RowPair & row) const;
 
   /** Summarizes the row that is loaded. */
   RowSummary
-  SummarizeRow(const IndexType& start, Workspace& workspace) const;
+  SummarizeRow(const IndexType & start, Workspace & workspace) const;
 
   /** Fills workspace.squaredGradient for the row that is loaded. */
   void
-  ComputeSquaredGradients(const IndexType& start, Workspace& workspace) const;
+  ComputeSquaredGradients(const IndexType & start, Workspace & workspace) const;
 
   static void
-  AddSquaredDifferences(const std::vector<double>& row,
-                        const double* next,
-                        SizeValueType length,
-                        double weight,
-                        std::vector<double>& sums);
+  AddSquaredDifferences(const std::vector<double> & row,
+                        const double *              next,
+                        SizeValueType               length,
+                        double                      weight,
+                        std::vector<double> &       sums);
 
   static double
-  SumOfRoots(const std::vector<double>& squares);
+  SumOfRoots(const std::vector<double> & squares);
 
   /** Shows the errors of the row that is loaded to the quantiles. */
   void
-  CountErrors(Workspace& workspace) const;
+  CountErrors(Workspace & workspace) const;
 
   void
   FinishPass();
@@ -345,18 +345,18 @@ private:
   void
   MakeFigures();
 
-  double m_Peak{ 0.0 };
-  std::vector<double> m_QuantileLevels{ 0.5, 0.99 };
-  bool m_UseImageSpacing{ false };
-  Figures m_Figures{};
-  RowSummary m_Sums{};
-  RadixQuantiles m_ErrorQuantiles{};
-  unsigned int m_Pass{ 0 };
-  RegionType m_Piece{};
+  double                  m_Peak{ 0.0 };
+  std::vector<double>     m_QuantileLevels{ 0.5, 0.99 };
+  bool                    m_UseImageSpacing{ false };
+  Figures                 m_Figures{};
+  RowSummary              m_Sums{};
+  RadixQuantiles          m_ErrorQuantiles{};
+  unsigned int            m_Pass{ 0 };
+  RegionType              m_Piece{};
   std::vector<RowSummary> m_RowSummaries{};
-  SizeValueType m_NumberOfVisitedVoxels{ 0 };
-  double m_DifferenceWeights[ImageDimension]{};
-  std::mutex m_Mutex{};
+  SizeValueType           m_NumberOfVisitedVoxels{ 0 };
+  double                  m_DifferenceWeights[ImageDimension]{};
+  std::mutex              m_Mutex{};
 };
 } // end namespace itk
 

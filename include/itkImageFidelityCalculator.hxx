@@ -4,6 +4,7 @@
 
 #include "itkImageFidelityCalculator.h"
 
+#include "itkImageRegionConstIteratorWithIndex.h"
 #include "itkImageRegionSplitterDirection.h"
 #include "itkImageScanlineConstIterator.h"
 #include "itkMultiThreaderBase.h"
@@ -25,7 +26,7 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::ImageFidelityCalculator()
 
 template <typename TReferenceImage, typename TTestImage>
 void
-ImageFidelityCalculator<TReferenceImage, TTestImage>::SetQuantileLevels(const std::vector<double>& levels)
+ImageFidelityCalculator<TReferenceImage, TTestImage>::SetQuantileLevels(const std::vector<double> & levels)
 {
   if (levels != m_QuantileLevels)
   {
@@ -74,14 +75,18 @@ template <typename TReferenceImage, typename TTestImage>
 void
 ImageFidelityCalculator<TReferenceImage, TTestImage>::VerifyInputInformation() const
 {
-  const RegionType& referenceRegion = this->GetReferenceImage()->GetLargestPossibleRegion();
-  const RegionType& testRegion = this->GetTestImage()->GetLargestPossibleRegion();
+  const RegionType & referenceRegion = this->GetReferenceImage()->GetLargestPossibleRegion();
+  const RegionType & testRegion = this->GetTestImage()->GetLargestPossibleRegion();
   if (testRegion != referenceRegion)
   {
     itkExceptionMacro("The images differ in region: the reference has size "
                       << referenceRegion.GetSize() << " from index " << referenceRegion.GetIndex()
                       << ", the test image size " << testRegion.GetSize() << " from index " << testRegion.GetIndex()
                       << '.');
+  }
+  if (referenceRegion.GetNumberOfPixels() == 0)
+  {
+    itkExceptionMacro("The images have no voxels.");
   }
   Superclass::VerifyInputInformation();
 }
@@ -119,7 +124,7 @@ template <typename TReferenceImage, typename TTestImage>
 void
 ImageFidelityCalculator<TReferenceImage, TTestImage>::GenerateNthInputRequestedRegion(unsigned int number)
 {
-  const RegionType image = this->GetReferenceImage()->GetLargestPossibleRegion();
+  const RegionType   image = this->GetReferenceImage()->GetLargestPossibleRegion();
   const unsigned int numberOfPieces = this->GetNumberOfPieces();
   m_Pass = number / numberOfPieces;
   m_Piece = image;
@@ -131,20 +136,20 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::GenerateNthInputRequestedR
     request.SetSize(axis, m_Piece.GetSize(axis) + 1); // for the forward differences
   }
   request.Crop(image);
-  const_cast<ReferenceImageType*>(this->GetReferenceImage())->SetRequestedRegion(request);
-  const_cast<TestImageType*>(this->GetTestImage())->SetRequestedRegion(request);
+  const_cast<ReferenceImageType *>(this->GetReferenceImage())->SetRequestedRegion(request);
+  const_cast<TestImageType *>(this->GetTestImage())->SetRequestedRegion(request);
 }
 
 template <typename TReferenceImage, typename TTestImage>
 void
 ImageFidelityCalculator<TReferenceImage, TTestImage>::StreamedGenerateData(unsigned int number)
 {
-  const SizeValueType numberOfRows = m_Piece.GetNumberOfPixels() / std::max(m_Piece.GetSize(0), SizeValueType{ 1 });
+  const SizeValueType numberOfRows = m_Piece.GetNumberOfPixels() / m_Piece.GetSize(0);
   m_RowSummaries.assign(m_Pass == 0 ? numberOfRows : 0, RowSummary{});
   this->GetMultiThreader()->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
   this->GetMultiThreader()->template ParallelizeImageRegionRestrictDirection<ImageDimension>(
-    0, m_Piece, [this](const RegionType& region) { this->ThreadedStreamedGenerateData(region); }, nullptr);
-  for (const RowSummary& row : m_RowSummaries)
+    0, m_Piece, [this](const RegionType & region) { this->ThreadedStreamedGenerateData(region); }, nullptr);
+  for (const RowSummary & row : m_RowSummaries)
   {
     m_Sums.Append(row);
   }
@@ -156,13 +161,15 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::StreamedGenerateData(unsig
 
 template <typename TReferenceImage, typename TTestImage>
 void
-ImageFidelityCalculator<TReferenceImage, TTestImage>::ThreadedStreamedGenerateData(const RegionType& region)
+ImageFidelityCalculator<TReferenceImage, TTestImage>::ThreadedStreamedGenerateData(const RegionType & region)
 {
-  Workspace workspace(region.GetSize(0), m_ErrorQuantiles.MakeCounts());
-  for (ImageScanlineConstIterator<ReferenceImageType> line(this->GetReferenceImage(), region); !line.IsAtEnd();
-       line.NextLine())
+  Workspace  workspace(region.GetSize(0), m_ErrorQuantiles.MakeCounts());
+  RegionType firstVoxels = region;
+  firstVoxels.SetSize(0, 1);
+  ImageRegionConstIteratorWithIndex<ReferenceImageType> row(this->GetReferenceImage(), firstVoxels);
+  for (; !row.IsAtEnd(); ++row)
   {
-    const IndexType start = line.GetIndex();
+    const IndexType start = row.GetIndex();
     this->LoadRowPair(start, workspace.row);
     if (m_Pass == 0)
     {
@@ -178,7 +185,7 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::ThreadedStreamedGenerateDa
 
 template <typename TReferenceImage, typename TTestImage>
 SizeValueType
-ImageFidelityCalculator<TReferenceImage, TTestImage>::GetRowNumber(const IndexType& start) const
+ImageFidelityCalculator<TReferenceImage, TTestImage>::GetRowNumber(const IndexType & start) const
 {
   SizeValueType number = 0;
   for (unsigned int axis = ImageDimension - 1; axis > 0; --axis)
@@ -191,9 +198,9 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::GetRowNumber(const IndexTy
 template <typename TReferenceImage, typename TTestImage>
 template <typename TImage>
 void
-ImageFidelityCalculator<TReferenceImage, TTestImage>::LoadRow(const TImage* image,
-                                                              const IndexType& start,
-                                                              std::vector<double>& row)
+ImageFidelityCalculator<TReferenceImage, TTestImage>::LoadRow(const TImage *        image,
+                                                              const IndexType &     start,
+                                                              std::vector<double> & row)
 {
   RegionType region;
   for (unsigned int axis = 0; axis < ImageDimension; ++axis)
@@ -202,7 +209,7 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::LoadRow(const TImage* imag
     region.SetSize(axis, axis == 0 ? row.size() : 1);
   }
   ImageScanlineConstIterator<TImage> voxel(image, region);
-  for (double& value : row)
+  for (double & value : row)
   {
     value = static_cast<double>(voxel.Get());
     ++voxel;
@@ -211,7 +218,7 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::LoadRow(const TImage* imag
 
 template <typename TReferenceImage, typename TTestImage>
 void
-ImageFidelityCalculator<TReferenceImage, TTestImage>::LoadRowPair(const IndexType& start, RowPair& row) const
+ImageFidelityCalculator<TReferenceImage, TTestImage>::LoadRowPair(const IndexType & start, RowPair & row) const
 {
   LoadRow(this->GetReferenceImage(), start, row.reference);
   LoadRow(this->GetTestImage(), start, row.test);
@@ -225,7 +232,7 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::LoadRowPair(const IndexTyp
 
 template <typename TReferenceImage, typename TTestImage>
 auto
-ImageFidelityCalculator<TReferenceImage, TTestImage>::SummarizeRow(const IndexType& start, Workspace& workspace) const
+ImageFidelityCalculator<TReferenceImage, TTestImage>::SummarizeRow(const IndexType & start, Workspace & workspace) const
   -> RowSummary
 {
   RowSummary summary;
@@ -251,11 +258,11 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::SummarizeRow(const IndexTy
 
 template <typename TReferenceImage, typename TTestImage>
 void
-ImageFidelityCalculator<TReferenceImage, TTestImage>::ComputeSquaredGradients(const IndexType& start,
-                                                                              Workspace& workspace) const
+ImageFidelityCalculator<TReferenceImage, TTestImage>::ComputeSquaredGradients(const IndexType & start,
+                                                                              Workspace &       workspace) const
 {
-  RowPair& gradient = workspace.squaredGradient;
-  const RowPair& row = workspace.row;
+  RowPair &           gradient = workspace.squaredGradient;
+  const RowPair &     row = workspace.row;
   const SizeValueType length = row.test.size();
   std::fill(gradient.reference.begin(), gradient.reference.end(), 0.0);
   std::fill(gradient.test.begin(), gradient.test.end(), 0.0);
@@ -263,14 +270,14 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::ComputeSquaredGradients(co
     row.reference, row.reference.data() + 1, length - 1, m_DifferenceWeights[0], gradient.reference);
   AddSquaredDifferences(row.test, row.test.data() + 1, length - 1, m_DifferenceWeights[0], gradient.test);
 
-  const RegionType& image = this->GetReferenceImage()->GetLargestPossibleRegion();
+  const RegionType & image = this->GetReferenceImage()->GetLargestPossibleRegion();
   for (unsigned int axis = 1; axis < ImageDimension; ++axis)
   {
     IndexType next = start;
     ++next[axis];
     if (image.IsInside(next))
     {
-      const RowPair& nextRow = workspace.nextRow;
+      const RowPair & nextRow = workspace.nextRow;
       this->LoadRowPair(next, workspace.nextRow);
       AddSquaredDifferences(
         row.reference, nextRow.reference.data(), length, m_DifferenceWeights[axis], gradient.reference);
@@ -281,11 +288,11 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::ComputeSquaredGradients(co
 
 template <typename TReferenceImage, typename TTestImage>
 void
-ImageFidelityCalculator<TReferenceImage, TTestImage>::AddSquaredDifferences(const std::vector<double>& row,
-                                                                            const double* next,
-                                                                            SizeValueType length,
-                                                                            double weight,
-                                                                            std::vector<double>& sums)
+ImageFidelityCalculator<TReferenceImage, TTestImage>::AddSquaredDifferences(const std::vector<double> & row,
+                                                                            const double *              next,
+                                                                            SizeValueType               length,
+                                                                            double                      weight,
+                                                                            std::vector<double> &       sums)
 {
   for (SizeValueType i = 0; i < length; ++i)
   {
@@ -296,7 +303,7 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::AddSquaredDifferences(cons
 
 template <typename TReferenceImage, typename TTestImage>
 double
-ImageFidelityCalculator<TReferenceImage, TTestImage>::SumOfRoots(const std::vector<double>& squares)
+ImageFidelityCalculator<TReferenceImage, TTestImage>::SumOfRoots(const std::vector<double> & squares)
 {
   double sum = 0.0;
   for (const double square : squares)
@@ -308,7 +315,7 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::SumOfRoots(const std::vect
 
 template <typename TReferenceImage, typename TTestImage>
 void
-ImageFidelityCalculator<TReferenceImage, TTestImage>::CountErrors(Workspace& workspace) const
+ImageFidelityCalculator<TReferenceImage, TTestImage>::CountErrors(Workspace & workspace) const
 {
   for (SizeValueType i = 0; i < workspace.row.test.size(); ++i)
   {
@@ -376,7 +383,7 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::MakeFigures()
   figures.peakSignalToNoiseRatio = 20.0 * std::log10(figures.peak / std::sqrt(meanSquaredError));
   figures.relativeL2Error = std::sqrt(m_Sums.squaredError) / std::sqrt(m_Sums.squaredReference);
   figures.relativeErrorQuantiles = m_ErrorQuantiles.GetQuantiles();
-  for (double& quantile : figures.relativeErrorQuantiles)
+  for (double & quantile : figures.relativeErrorQuantiles)
   {
     quantile /= figures.peak;
   }
@@ -410,7 +417,7 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::ImageSummary::AddToRange(d
 
 template <typename TReferenceImage, typename TTestImage>
 void
-ImageFidelityCalculator<TReferenceImage, TTestImage>::ImageSummary::Append(const ImageSummary& other)
+ImageFidelityCalculator<TReferenceImage, TTestImage>::ImageSummary::Append(const ImageSummary & other)
 {
   totalVariation += other.totalVariation;
   minimum = std::min(minimum, other.minimum);
@@ -419,7 +426,7 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::ImageSummary::Append(const
 
 template <typename TReferenceImage, typename TTestImage>
 void
-ImageFidelityCalculator<TReferenceImage, TTestImage>::RowSummary::Append(const RowSummary& other)
+ImageFidelityCalculator<TReferenceImage, TTestImage>::RowSummary::Append(const RowSummary & other)
 {
   reference.Append(other.reference);
   test.Append(other.test);
@@ -430,7 +437,7 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::RowSummary::Append(const R
 
 template <typename TReferenceImage, typename TTestImage>
 void
-ImageFidelityCalculator<TReferenceImage, TTestImage>::PrintSelf(std::ostream& os, Indent indent) const
+ImageFidelityCalculator<TReferenceImage, TTestImage>::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
   os << indent << "Peak: " << m_Peak << std::endl;

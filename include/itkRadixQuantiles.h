@@ -53,12 +53,12 @@ public:
 
   /** Counts \a value where the current pass looks at it. */
   void
-  Count(double value, Counts& counts) const
+  Count(double value, Counts & counts) const
   {
     std::uint64_t bits;
     std::memcpy(&bits, &value, sizeof bits);
     const std::uint64_t known = bits >> (BitsPerDigit * (NumberOfPasses - 1 - m_Pass));
-    const auto prefix = std::find(m_Prefixes.begin(), m_Prefixes.end(), known >> BitsPerDigit);
+    const auto          prefix = std::find(m_Prefixes.begin(), m_Prefixes.end(), known >> BitsPerDigit);
     if (prefix != m_Prefixes.end())
     {
       ++counts[(prefix - m_Prefixes.begin()) * NumberOfDigits + known % NumberOfDigits];
@@ -67,7 +67,7 @@ public:
 
   /** Adds the counts of one thread. Not to be called from two threads at a time. */
   void
-  Merge(const Counts& counts)
+  Merge(const Counts & counts)
   {
     std::transform(counts.begin(), counts.end(), m_Counts.begin(), m_Counts.begin(), std::plus<>());
   }
@@ -79,12 +79,12 @@ public:
     {
       this->MakeOrderStatistics();
     }
-    for (OrderStatistic& statistic : m_OrderStatistics)
+    for (OrderStatistic & statistic : m_OrderStatistics)
     {
       this->FindNextDigit(statistic);
     }
     m_Prefixes.clear();
-    for (const OrderStatistic& statistic : m_OrderStatistics)
+    for (const OrderStatistic & statistic : m_OrderStatistics)
     {
       m_Prefixes.push_back(statistic.prefix);
     }
@@ -118,7 +118,7 @@ public:
   }
 
 private:
-  static constexpr unsigned int BitsPerDigit = 16;
+  static constexpr unsigned int  BitsPerDigit = 16;
   static constexpr std::uint64_t NumberOfDigits = std::uint64_t{ 1 } << BitsPerDigit;
 
   struct OrderStatistic
@@ -158,11 +158,11 @@ private:
   }
 
   void
-  FindNextDigit(OrderStatistic& statistic) const
+  FindNextDigit(OrderStatistic & statistic) const
   {
-    const auto prefix = std::find(m_Prefixes.begin(), m_Prefixes.end(), statistic.prefix);
-    const SizeValueType* const counts = &m_Counts[(prefix - m_Prefixes.begin()) * NumberOfDigits];
-    std::uint64_t digit = 0;
+    const auto                  prefix = std::find(m_Prefixes.begin(), m_Prefixes.end(), statistic.prefix);
+    const SizeValueType * const counts = &m_Counts[(prefix - m_Prefixes.begin()) * NumberOfDigits];
+    std::uint64_t               digit = 0;
     while (statistic.rank >= counts[digit])
     {
       statistic.rank -= counts[digit];
@@ -171,12 +171,12 @@ private:
     statistic.prefix = statistic.prefix << BitsPerDigit | digit;
   }
 
-  std::vector<double> m_Levels;
-  unsigned int m_Pass{ 0 };
-  SizeValueType m_NumberOfValues{ 0 };
-  std::vector<std::uint64_t> m_Prefixes{ 0 }; // without repetition; in the first pass the empty one
+  std::vector<double>         m_Levels;
+  unsigned int                m_Pass{ 0 };
+  SizeValueType               m_NumberOfValues{ 0 };
+  std::vector<std::uint64_t>  m_Prefixes{ 0 }; // without repetition; in the first pass the empty one
   std::vector<OrderStatistic> m_OrderStatistics{};
-  Counts m_Counts;
+  Counts                      m_Counts;
 };
 } // end namespace itk
 

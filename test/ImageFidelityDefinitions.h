@@ -9,11 +9,11 @@
 #include <vector>
 
 inline double
-GetQuantileOfSorted(const std::vector<double>& sorted, double level)
+GetQuantileOfSorted(const std::vector<double> & sorted, double level)
 {
   const double position = level * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(std::floor(position));
-  const auto above = static_cast<std::size_t>(std::ceil(position));
+  const auto   below = static_cast<std::size_t>(std::floor(position));
+  const auto   above = static_cast<std::size_t>(std::ceil(position));
   return sorted[below] == sorted[above]
            ? sorted[below]
            : sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
@@ -26,17 +26,17 @@ struct ImageFidelityDefinitions
   static constexpr unsigned int Dimension = TReference::ImageDimension;
   using IndexType = typename TReference::IndexType;
 
-  const TReference* reference;
-  const TTest* test;
-  bool useSpacing{ false };
+  const TReference *  reference;
+  const TTest *       test;
+  bool                useSpacing{ false };
   std::vector<double> errors{};
-  long double squaredError{ 0 };
-  long double squaredReference{ 0 };
-  long double referenceTotalVariation{ 0 };
-  long double testTotalVariation{ 0 };
+  long double         squaredError{ 0 };
+  long double         squaredReference{ 0 };
+  long double         referenceTotalVariation{ 0 };
+  long double         testTotalVariation{ 0 };
 
   bool
-  IsCompared(const IndexType& index) const
+  IsCompared(const IndexType & index) const
   {
     return reference->GetLargestPossibleRegion().IsInside(index) &&
            std::isfinite(static_cast<double>(reference->GetPixel(index))) &&
@@ -45,7 +45,7 @@ struct ImageFidelityDefinitions
 
   template <typename TImage>
   long double
-  GetGradientNorm(const TImage* image, const IndexType& index) const
+  GetGradientNorm(const TImage * image, const IndexType & index) const
   {
     long double sum = 0;
     long double volume = 1;

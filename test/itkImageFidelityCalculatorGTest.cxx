@@ -25,7 +25,7 @@ constexpr double Infinity = std::numeric_limits<double>::infinity();
 
 template <typename TImage>
 typename TImage::Pointer
-MakeImage(const typename TImage::RegionType& region)
+MakeImage(const typename TImage::RegionType & region)
 {
   const auto image = TImage::New();
   image->SetRegions(region);
@@ -36,7 +36,7 @@ MakeImage(const typename TImage::RegionType& region)
 /** An image that starts at index 0; the values in the order of the memory. */
 template <typename TPixel, unsigned int VDimension>
 typename itk::Image<TPixel, VDimension>::Pointer
-MakeImage(const itk::Size<VDimension>& size, const std::vector<TPixel>& values)
+MakeImage(const itk::Size<VDimension> & size, const std::vector<TPixel> & values)
 {
   const auto image = MakeImage<itk::Image<TPixel, VDimension>>(itk::ImageRegion<VDimension>(size));
   EXPECT_EQ(values.size(), image->GetLargestPossibleRegion().GetNumberOfPixels());
@@ -46,11 +46,11 @@ MakeImage(const itk::Size<VDimension>& size, const std::vector<TPixel>& values)
 
 template <typename TImage>
 typename TImage::Pointer
-MakeRandomImage(const typename TImage::RegionType& region, unsigned int seed, double scale)
+MakeRandomImage(const typename TImage::RegionType & region, unsigned int seed, double scale)
 {
-  std::mt19937 generator(seed);
+  std::mt19937                     generator(seed);
   std::normal_distribution<double> distribution(0.0, scale);
-  const auto image = MakeImage<TImage>(region);
+  const auto                       image = MakeImage<TImage>(region);
   for (itk::ImageRegionIterator<TImage> it(image, region); !it.IsAtEnd(); ++it)
   {
     it.Set(static_cast<typename TImage::PixelType>(distribution(generator)));
@@ -60,7 +60,7 @@ MakeRandomImage(const typename TImage::RegionType& region, unsigned int seed, do
 
 template <typename TReference, typename TTest>
 typename itk::ImageFidelityCalculator<TReference, TTest>::Pointer
-MakeCalculator(const itk::SmartPointer<TReference>& reference, const itk::SmartPointer<TTest>& test)
+MakeCalculator(const itk::SmartPointer<TReference> & reference, const itk::SmartPointer<TTest> & test)
 {
   const auto calculator = itk::ImageFidelityCalculator<TReference, TTest>::New();
   calculator->SetReferenceImage(reference);
@@ -70,7 +70,7 @@ MakeCalculator(const itk::SmartPointer<TReference>& reference, const itk::SmartP
 
 template <typename TReference, typename TTest>
 typename itk::ImageFidelityCalculator<TReference, TTest>::Pointer
-Compare(const itk::SmartPointer<TReference>& reference, const itk::SmartPointer<TTest>& test)
+Compare(const itk::SmartPointer<TReference> & reference, const itk::SmartPointer<TTest> & test)
 {
   const auto calculator = MakeCalculator(reference, test);
   calculator->Update();
@@ -79,13 +79,13 @@ Compare(const itk::SmartPointer<TReference>& reference, const itk::SmartPointer<
 
 template <typename TCalculator>
 std::string
-GetErrorOfUpdate(const itk::SmartPointer<TCalculator>& calculator)
+GetErrorOfUpdate(const itk::SmartPointer<TCalculator> & calculator)
 {
   try
   {
     calculator->Update();
   }
-  catch (const itk::ExceptionObject& error)
+  catch (const itk::ExceptionObject & error)
   {
     return error.GetDescription();
   }
@@ -95,7 +95,7 @@ GetErrorOfUpdate(const itk::SmartPointer<TCalculator>& calculator)
 /** Every figure, for comparisons byte by byte. */
 template <typename TCalculator>
 std::vector<double>
-GetFigures(const itk::SmartPointer<TCalculator>& calculator)
+GetFigures(const itk::SmartPointer<TCalculator> & calculator)
 {
   std::vector<double> figures = calculator->GetRelativeErrorQuantiles();
   for (const double figure : { calculator->GetEffectivePeak(),
@@ -117,14 +117,16 @@ GetFigures(const itk::SmartPointer<TCalculator>& calculator)
 }
 
 bool
-HaveSameBytes(const std::vector<double>& a, const std::vector<double>& b)
+HaveSameBytes(const std::vector<double> & a, const std::vector<double> & b)
 {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 template <typename TReference, typename TTest>
 void
-ExpectDefinitions(const itk::SmartPointer<TReference>& reference, const itk::SmartPointer<TTest>& test, bool useSpacing)
+ExpectDefinitions(const itk::SmartPointer<TReference> & reference,
+                  const itk::SmartPointer<TTest> &      test,
+                  bool                                  useSpacing)
 {
   const auto calculator = MakeCalculator(reference, test);
   calculator->SetQuantileLevels({ 0.0, 0.123, 0.5, 0.99, 1.0 });
@@ -134,8 +136,8 @@ ExpectDefinitions(const itk::SmartPointer<TReference>& reference, const itk::Sma
   expected.Evaluate();
 
   const double peak = calculator->GetReferenceMaximum() - calculator->GetReferenceMinimum();
-  const auto count = static_cast<double>(expected.errors.size());
-  const auto expectClose = [](double value, long double wanted) {
+  const auto   count = static_cast<double>(expected.errors.size());
+  const auto   expectClose = [](double value, long double wanted) {
     EXPECT_NEAR(value, static_cast<double>(wanted), 1e-12 * std::abs(static_cast<double>(wanted)));
   };
   EXPECT_EQ(calculator->GetEffectivePeak(), peak);
@@ -163,12 +165,12 @@ struct StreamingPipeline
   using MonitorType = itk::PipelineMonitorImageFilter<RealType>;
   using CalculatorType = itk::ImageFidelityCalculator<RealType>;
 
-  typename CastType::Pointer castReference{ CastType::New() };
-  typename CastType::Pointer castTest{ CastType::New() };
-  typename MonitorType::Pointer monitor{ MonitorType::New() };
+  typename CastType::Pointer       castReference{ CastType::New() };
+  typename CastType::Pointer       castTest{ CastType::New() };
+  typename MonitorType::Pointer    monitor{ MonitorType::New() };
   typename CalculatorType::Pointer calculator{ CalculatorType::New() };
 
-  StreamingPipeline(const TImage* reference, const TImage* test)
+  StreamingPipeline(const TImage * reference, const TImage * test)
   {
     castReference->SetInput(reference);
     castTest->SetInput(test);
@@ -179,7 +181,7 @@ struct StreamingPipeline
 };
 
 std::vector<double>
-FindQuantiles(const std::vector<double>& values, const std::vector<double>& levels)
+FindQuantiles(const std::vector<double> & values, const std::vector<double> & levels)
 {
   itk::RadixQuantiles quantiles(levels);
   for (unsigned int pass = 0; pass < itk::RadixQuantiles::NumberOfPasses; ++pass)
@@ -227,10 +229,10 @@ protected:
 
 TEST(RadixQuantiles, AgreeWithSortingForRandomValuesOfAllMagnitudes)
 {
-  std::mt19937 generator(1);
+  std::mt19937                           generator(1);
   std::uniform_real_distribution<double> exponent(-300.0, 300.0);
-  std::vector<double> values(10007);
-  for (double& value : values)
+  std::vector<double>                    values(10007);
+  for (double & value : values)
   {
     value = std::pow(10.0, exponent(generator));
   }
@@ -287,8 +289,8 @@ TEST(ImageFidelityCalculator, HandComputed1D)
 
 TEST(ImageFidelityCalculator, HandComputed2DWithAndWithoutSpacing)
 {
-  const auto reference = MakeImage<double, 2>({ { 2, 2 } }, { 0, 3, 4, 0 });
-  const auto test = MakeImage<double, 2>({ { 2, 2 } }, { 0, 1.5, 2, 0 });
+  const auto   reference = MakeImage<double, 2>({ { 2, 2 } }, { 0, 3, 4, 0 });
+  const auto   test = MakeImage<double, 2>({ { 2, 2 } }, { 0, 1.5, 2, 0 });
   const double spacing[] = { 0.5, 4.0 };
   reference->SetSpacing(spacing);
   test->SetSpacing(spacing);
@@ -398,8 +400,8 @@ TEST(ImageFidelityCalculator, IsTheSameToTheByteForAnyNumberOfThreadsAndPieces)
 {
   using InputType = itk::Image<float, 3>;
   const InputType::RegionType region({ { 2, -1, 5 } }, { { 37, 21, 23 } });
-  const auto reference = MakeRandomImage<InputType>(region, 9, 100.0);
-  const auto test = MakeRandomImage<InputType>(region, 10, 100.0);
+  const auto                  reference = MakeRandomImage<InputType>(region, 9, 100.0);
+  const auto                  test = MakeRandomImage<InputType>(region, 10, 100.0);
   test->GetBufferPointer()[777] = std::numeric_limits<float>::quiet_NaN();
   const auto single = MakeCalculator(reference, test);
   single->SetNumberOfWorkUnits(1);
@@ -422,8 +424,8 @@ TEST(ImageFidelityCalculator, IsTheSameToTheByteForAnyNumberOfThreadsAndPieces)
 TEST(ImageFidelityCalculator, AsksForOnePieceAndOneMoreSliceAtATime)
 {
   using InputType = itk::Image<float, 3>;
-  const InputType::RegionType region({ { 2, -1, 5 } }, { { 7, 6, 10 } });
-  const auto image = MakeRandomImage<InputType>(region, 11, 1.0);
+  const InputType::RegionType        region({ { 2, -1, 5 } }, { { 7, 6, 10 } });
+  const auto                         image = MakeRandomImage<InputType>(region, 11, 1.0);
   const StreamingPipeline<InputType> pipeline(image, image);
   pipeline.calculator->SetNumberOfStreamDivisions(3);
   pipeline.calculator->Update();
@@ -433,7 +435,7 @@ TEST(ImageFidelityCalculator, AsksForOnePieceAndOneMoreSliceAtATime)
   for (std::size_t i = 0; i < requests.size(); ++i)
   {
     const itk::IndexValueType firstSlices[] = { 5, 9, 13 };
-    const itk::SizeValueType numbersOfSlices[] = { 5, 5, 2 };
+    const itk::SizeValueType  numbersOfSlices[] = { 5, 5, 2 };
     EXPECT_EQ(requests[i],
               InputType::RegionType({ { 2, -1, firstSlices[i % 3] } }, { { 7, 6, numbersOfSlices[i % 3] } }));
   }
@@ -443,22 +445,22 @@ TEST(ImageFidelityCalculator, RefusesImagesThatCannotBeCompared)
 {
   using ImageType = itk::Image<float, 2>;
   const auto reference = MakeImage<float, 2>({ { 2, 2 } }, { 0, 1, 2, 3 });
-  const auto expectError = [&reference](const ImageType::Pointer& test, const std::string& words) {
+  const auto expectError = [&reference](const ImageType::Pointer & test, const std::string & words) {
     EXPECT_NE(GetErrorOfUpdate(MakeCalculator(reference, test)).find(words), std::string::npos) << words;
   };
   expectError(MakeImage<float, 2>({ { 4, 1 } }, { 0, 1, 2, 3 }), "differ in region");
   expectError(MakeRandomImage<ImageType>(ImageType::RegionType({ { 1, 0 } }, { { 2, 2 } }), 1, 1.0),
               "differ in region");
 
-  const auto moved = MakeImage<float, 2>({ { 2, 2 } }, { 0, 1, 2, 3 });
+  const auto   moved = MakeImage<float, 2>({ { 2, 2 } }, { 0, 1, 2, 3 });
   const double origin[] = { 0.0, 0.01 };
   moved->SetOrigin(origin);
   expectError(moved, "physical space");
-  const auto stretched = MakeImage<float, 2>({ { 2, 2 } }, { 0, 1, 2, 3 });
+  const auto   stretched = MakeImage<float, 2>({ { 2, 2 } }, { 0, 1, 2, 3 });
   const double spacing[] = { 1.0, 1.01 };
   stretched->SetSpacing(spacing);
   expectError(stretched, "physical space");
-  const auto turned = MakeImage<float, 2>({ { 2, 2 } }, { 0, 1, 2, 3 });
+  const auto               turned = MakeImage<float, 2>({ { 2, 2 } }, { 0, 1, 2, 3 });
   ImageType::DirectionType direction;
   direction(0, 1) = 1.0;
   direction(1, 0) = -1.0;
@@ -468,6 +470,12 @@ TEST(ImageFidelityCalculator, RefusesImagesThatCannotBeCompared)
   const float nan = std::numeric_limits<float>::quiet_NaN();
   expectError(MakeImage<float, 2>({ { 2, 2 } }, { nan, nan, nan, nan }), "no voxel");
   expectError(nullptr, "TestImage");
+}
+
+TEST(ImageFidelityCalculator, RefusesImagesWithoutVoxels)
+{
+  const auto image = MakeImage<float, 2>({ { 0, 3 } }, {});
+  EXPECT_NE(GetErrorOfUpdate(MakeCalculator(image, image)).find("no voxels"), std::string::npos);
 }
 
 TEST(ImageFidelityCalculator, RefusesSettingsThatMakeNoSense)
@@ -517,7 +525,7 @@ TEST(ImageFidelityCalculator, RecoversAfterAnInputFailed)
 
 TEST(ImageFidelityCalculator, PrintsItself)
 {
-  const auto image = MakeImage<float, 2>({ { 2, 2 } }, { 0, 1, 2, 3 });
+  const auto         image = MakeImage<float, 2>({ { 2, 2 } }, { 0, 1, 2, 3 });
   std::ostringstream text;
   Compare(image, image)->Print(text);
   EXPECT_NE(text.str().find("ImageFidelityCalculator"), std::string::npos);

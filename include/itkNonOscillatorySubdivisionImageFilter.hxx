@@ -189,9 +189,15 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GenerateInputRe
   auto * const input = const_cast<InputImageType *>(this->GetInput());
   if (input)
   {
-    const InputRegionType stencil = this->ComputeStencil(this->GetOutput()->GetRequestedRegion());
-    input->SetRequestedRegion(
-      m_BoundaryCondition->GetInputRequestedRegion(input->GetLargestPossibleRegion(), stencil));
+    // Asked as if the image began at 0: PeriodicBoundaryCondition forgets where it begins.
+    InputRegionType largest = input->GetLargestPossibleRegion();
+    InputRegionType stencil = this->ComputeStencil(this->GetOutput()->GetRequestedRegion());
+    const auto      start = largest.GetIndex() - IndexType::Filled(0);
+    largest.SetIndex(largest.GetIndex() - start);
+    stencil.SetIndex(stencil.GetIndex() - start);
+    InputRegionType request = m_BoundaryCondition->GetInputRequestedRegion(largest, stencil);
+    request.SetIndex(request.GetIndex() + start);
+    input->SetRequestedRegion(request);
   }
 }
 
@@ -455,26 +461,45 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(Kerne
   const auto indexOf = [&](const IndexValueType lane, const IndexValueType row, const IndexValueType plane) {
     IndexType index = parents.GetIndex();
     index[lanes] += lane;
-    if (hasRows)
-    {
-      index[axes[1]] += row;
-    }
-    if (hasSweep)
-    {
-      index[axes.back()] += plane;
-    }
+    index[hasRows ? axes[1] : lanes] += row;
+    index[axes.back()] += plane;
     return index;
+  };
+  const auto readWidth = static_cast<SizeValueType>(width + 2 * radius);
+  // Calls a function with the index and the rows of the children of each row of a plane of parents.
+  const auto forEachRowOfChildren = [&](const IndexValueType plane, const IndexValueType row, const auto & function) {
+    IndexType index = indexOf(0, row, plane);
+    for (const unsigned int axis : axes)
+    {
+      index[axis] *= SubdivisionMasks::Children;
+    }
+    for (int sweepChild = 0; sweepChild < (hasSweep ? SubdivisionMasks::Children : 1); ++sweepChild)
+    {
+      for (int rowChild = 0; rowChild < (hasRows ? SubdivisionMasks::Children : 1); ++rowChild)
+      {
+        function(index, sweepChild, rowChild);
+        index[hasRows ? axes[1] : lanes] += 1;
+      }
+      index[hasRows ? axes[1] : lanes] -= hasRows ? SubdivisionMasks::Children : 1;
+      index[axes.back()] += 1;
+    }
   };
 
   kernel.StartTile(static_cast<std::size_t>(width), static_cast<std::size_t>(height));
   for (IndexValueType plane = -sweepHalo; plane < depth + sweepHalo; ++plane)
   {
+    const IndexValueType complete = plane - sweepHalo;
     for (IndexValueType row = -rowHalo; row < height + rowHalo; ++row)
     {
-      reader.ReadRow(indexOf(-radius, row, plane),
-                     static_cast<SizeValueType>(width + 2 * radius),
-                     component,
-                     kernel.GetInputRow(row) - radius);
+      reader.ReadRow(indexOf(-radius, row, plane), readWidth, component, kernel.GetInputRow(row) - radius);
+    }
+    for (IndexValueType row = -rowHalo; row < height + rowHalo; ++row)
+    {
+      reader.PrefetchRow(indexOf(-radius, row, plane + 1), readWidth);
+    }
+    for (IndexValueType row = 0; row < height && complete >= 0; ++row)
+    {
+      forEachRowOfChildren(complete, row, [&](const IndexType & index, int, int) { writer.PrefetchRow(index); });
     }
     if (!kernel.AdvancePlane())
     {
@@ -483,23 +508,11 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(Kerne
     for (IndexValueType row = 0; row < height; ++row)
     {
       const auto    children = kernel.ComputeChildren(static_cast<std::size_t>(row));
-      IndexType     index = indexOf(0, row, plane - sweepHalo);
       SizeValueType written = 0;
-      for (const unsigned int axis : axes)
-      {
-        index[axis] *= SubdivisionMasks::Children;
-      }
-      for (int sweepChild = 0; sweepChild < (hasSweep ? SubdivisionMasks::Children : 1); ++sweepChild)
-      {
-        for (int rowChild = 0; rowChild < (hasRows ? SubdivisionMasks::Children : 1); ++rowChild)
-        {
-          IndexType childIndex = index;
-          childIndex[axes.back()] += hasSweep ? sweepChild : 0;
-          childIndex[axes.size() > 2 ? axes[1] : lanes] += rowChild;
-          written += writer.WriteChildren(
-            childIndex, children.Rows[sweepChild][rowChild], parents.GetSize(lanes), component);
-        }
-      }
+      forEachRowOfChildren(complete, row, [&](const IndexType & index, const int sweepChild, const int rowChild) {
+        written += writer.WriteChildren(
+          index, children.Rows[sweepChild][rowChild], parents.GetSize(lanes), component);
+      });
       report(written);
     }
   }

@@ -45,7 +45,8 @@ public:
     , m_BoundaryCondition(boundaryCondition)
     , m_LaneAxis(laneAxis)
     , m_Needed(needed)
-    , m_Largest(image->GetLargestPossibleRegion())
+    , m_NeededLanes(LaneInterval(needed))
+    , m_ImageLanes(LaneInterval(image->GetLargestPossibleRegion()))
     , m_Components(image->GetNumberOfComponentsPerPixel())
     , m_Stride(m_Components * image->GetOffsetTable()[laneAxis])
   {
@@ -65,42 +66,37 @@ public:
 
   /** Reads one component of \c count pixels along the lane axis. */
   void
-  ReadRow(IndexType first, const SizeValueType count, const unsigned int component, TReal * const values) const
+  ReadRow(const IndexType & first, const SizeValueType count, const unsigned int component, TReal * const values) const
   {
-    if (!this->IsNeeded(first))
-    {
-      std::fill_n(values, count, TReal{ 0 });
-      return;
-    }
     const IndexValueType begin = first[m_LaneAxis];
-    const IndexValueType end = begin + static_cast<IndexValueType>(count);
-    const Interval       needed = Intersect({ begin, end }, LaneInterval(m_Needed));
-    std::fill_n(values, needed.Begin - begin, TReal{ 0 });
-    std::fill(values + (needed.End - begin), values + count, TReal{ 0 });
+    const Interval       row{ begin, begin + static_cast<IndexValueType>(count) };
+    const Interval       needed = this->IsNeeded(first) ? Intersect(row, m_NeededLanes) : Interval{ begin, begin };
+    std::fill_n(values, needed.Begin - row.Begin, TReal{ 0 });
+    std::fill_n(values + (needed.End - begin), row.End - needed.End, TReal{ 0 });
 
-    IndexType inside = first;
-    if (!this->MapOtherAxes(inside))
+    const Interval              inside = Intersect(needed, m_ImageLanes);
+    const ComponentType * const pixels = this->FindRow(first);
+    if (!pixels || inside.Begin >= inside.End)
     {
       this->ReadOutside(first, needed, component, values - begin);
       return;
     }
-    const Interval image = Intersect(needed, LaneInterval(m_Largest));
-    inside[m_LaneAxis] = image.Begin;
-    const ComponentType * const pixels = this->ComponentsAt(inside) + component;
-    this->Convert(pixels, image.End - image.Begin, values + (image.Begin - begin));
-    const auto readEdge = [&](const Interval & edge) {
-      if (!m_MapIndex)
-      {
-        this->ReadOutside(first, edge, component, values - begin);
-        return;
-      }
-      for (IndexValueType i = edge.Begin; i < edge.End; ++i)
-      {
-        values[i - begin] = static_cast<TReal>(pixels[(this->MapIndex(i, m_LaneAxis) - image.Begin) * m_Stride]);
-      }
-    };
-    readEdge({ needed.Begin, image.Begin });
-    readEdge({ image.End, needed.End });
+    this->ReadInside(pixels + component, inside, values - begin);
+    this->ReadOutside(first, { needed.Begin, inside.Begin }, component, values - begin);
+    this->ReadOutside(first, { inside.End, needed.End }, component, values - begin);
+  }
+
+  /** Asks for the memory of a row that will be read soon. */
+  void
+  PrefetchRow(const IndexType & first, const SizeValueType count) const
+  {
+    const IndexValueType begin = first[m_LaneAxis];
+    const Interval       row{ begin, begin + static_cast<IndexValueType>(count) };
+    const Interval       inside = Intersect(Intersect(row, m_NeededLanes), m_ImageLanes);
+    if (const ComponentType * const pixels = this->IsNeeded(first) ? this->FindRow(first) : nullptr)
+    {
+      SubdivisionPrefetch(pixels + inside.Begin * m_Stride, pixels + inside.End * m_Stride);
+    }
   }
 
 private:
@@ -113,7 +109,8 @@ private:
   static Interval
   Intersect(const Interval & a, const Interval & b)
   {
-    return { std::max(a.Begin, b.Begin), std::min(a.End, b.End) };
+    const IndexValueType begin = std::max(a.Begin, b.Begin);
+    return { begin, std::max(begin, std::min(a.End, b.End)) };
   }
 
   Interval
@@ -123,47 +120,102 @@ private:
     return { begin, begin + static_cast<IndexValueType>(region.GetSize(m_LaneAxis)) };
   }
 
+  /** Whether any pixel of the row is. */
   bool
-  IsNeeded(IndexType index) const
-  {
-    index[m_LaneAxis] = m_Needed.GetIndex(m_LaneAxis);
-    return m_Needed.IsInside(index);
-  }
-
-  IndexValueType
-  MapIndex(const IndexValueType i, const unsigned int axis) const
-  {
-    const IndexValueType start = m_Largest.GetIndex(axis);
-    return start + m_MapIndex(i - start, static_cast<IndexValueType>(m_Largest.GetSize(axis)));
-  }
-
-  /** Maps the row into the image. Returns false if it lies outside and the boundary condition is none that maps. */
-  bool
-  MapOtherAxes(IndexType & index) const
+  IsNeeded(const IndexType & index) const
   {
     for (unsigned int axis = 0; axis < Dimension; ++axis)
     {
-      const IndexValueType start = m_Largest.GetIndex(axis);
-      const bool           isInside =
-        index[axis] >= start && index[axis] < start + static_cast<IndexValueType>(m_Largest.GetSize(axis));
-      if (axis == m_LaneAxis || isInside)
-      {
-        continue;
-      }
-      if (!m_MapIndex)
+      const IndexValueType offset = index[axis] - m_Needed.GetIndex(axis);
+      if (axis != m_LaneAxis && (offset < 0 || offset >= static_cast<IndexValueType>(m_Needed.GetSize(axis))))
       {
         return false;
       }
-      index[axis] = this->MapIndex(index[axis], axis);
     }
     return true;
   }
 
-  /** Asks the boundary condition, pixel by pixel. */
-  void
-  ReadOutside(IndexType index, const Interval & interval, const unsigned int component, TReal * const values) const
+  /** An index along an axis, outside the image, as the boundary condition maps it into it. */
+  IndexValueType
+  MapIndex(const IndexValueType i, const unsigned int axis) const
   {
+    const IndexValueType start = m_Image->GetLargestPossibleRegion().GetIndex(axis);
+    const auto           size = static_cast<IndexValueType>(m_Image->GetLargestPossibleRegion().GetSize(axis));
+    return start + m_MapIndex(i - start, size);
+  }
+
+  /** Where index 0 along the lane axis lies, or would lie, of a row or of the one that it is mapped to; null if it lies
+   * outside the image and is not mapped. */
+  const ComponentType *
+  FindRow(const IndexType & index) const
+  {
+    const RegionType & largest = m_Image->GetLargestPossibleRegion();
+    const RegionType & buffered = m_Image->GetBufferedRegion();
+    OffsetValueType    offset = -buffered.GetIndex(m_LaneAxis) * m_Image->GetOffsetTable()[m_LaneAxis];
+    for (unsigned int axis = 0; axis < Dimension; ++axis)
+    {
+      if (axis == m_LaneAxis)
+      {
+        continue;
+      }
+      IndexValueType       i = index[axis];
+      const IndexValueType start = largest.GetIndex(axis);
+      if (i < start || i >= start + static_cast<IndexValueType>(largest.GetSize(axis)))
+      {
+        if (!m_MapIndex)
+        {
+          return nullptr;
+        }
+        i = this->MapIndex(i, axis);
+      }
+      offset += (i - buffered.GetIndex(axis)) * m_Image->GetOffsetTable()[axis];
+    }
+    return reinterpret_cast<const ComponentType *>(m_Image->GetBufferPointer()) + offset * m_Components;
+  }
+
+  /** Reads pixels of a row by their index along the lane axis. */
+  void
+  ReadInside(const ComponentType * const pixels, const Interval & interval, TReal * const values) const
+  {
+    using VectorPixelType = SubdivisionVectorPixelType<ComponentType>;
+    if constexpr (std::is_same<TReal, float>::value && !std::is_void<VectorPixelType>::value)
+    {
+      if (m_Stride == 1)
+      {
+        ConvertRow(reinterpret_cast<const VectorPixelType *>(pixels + interval.Begin),
+                   static_cast<std::size_t>(interval.End - interval.Begin),
+                   values + interval.Begin);
+        return;
+      }
+    }
+    for (IndexValueType i = interval.Begin; i < interval.End; ++i)
+    {
+      values[i] = static_cast<TReal>(pixels[i * m_Stride]);
+    }
+  }
+
+  /** Reads pixels that the boundary condition supplies: maps them, or asks it for each. */
+  void
+  ReadOutside(const IndexType &    first,
+              const Interval &     interval,
+              const unsigned int   component,
+              TReal * const        values) const
+  {
+    if (interval.Begin >= interval.End)
+    {
+      return;
+    }
+    if (m_MapIndex)
+    {
+      const ComponentType * const pixels = this->FindRow(first) + component;
+      for (IndexValueType i = interval.Begin; i < interval.End; ++i)
+      {
+        values[i] = static_cast<TReal>(pixels[this->MapIndex(i, m_LaneAxis) * m_Stride]);
+      }
+      return;
+    }
     using PixelType = typename TImage::PixelType;
+    IndexType index = first;
     for (IndexValueType i = interval.Begin; i < interval.End; ++i)
     {
       index[m_LaneAxis] = i;
@@ -172,36 +224,12 @@ private:
     }
   }
 
-  const ComponentType *
-  ComponentsAt(const IndexType & index) const
-  {
-    const auto * const components = reinterpret_cast<const ComponentType *>(m_Image->GetBufferPointer());
-    return components + m_Image->ComputeOffset(index) * m_Components;
-  }
-
-  void
-  Convert(const ComponentType * const pixels, const IndexValueType count, TReal * const values) const
-  {
-    using VectorPixelType = SubdivisionVectorPixelType<ComponentType>;
-    if constexpr (std::is_same<TReal, float>::value && !std::is_void<VectorPixelType>::value)
-    {
-      if (m_Stride == 1)
-      {
-        ConvertRow(reinterpret_cast<const VectorPixelType *>(pixels), static_cast<std::size_t>(count), values);
-        return;
-      }
-    }
-    for (IndexValueType i = 0; i < count; ++i)
-    {
-      values[i] = static_cast<TReal>(pixels[i * m_Stride]);
-    }
-  }
-
   const TImage *                m_Image;
   const BoundaryConditionType * m_BoundaryCondition;
   unsigned int                  m_LaneAxis;
   RegionType                    m_Needed;
-  RegionType                    m_Largest;
+  Interval                      m_NeededLanes;
+  Interval                      m_ImageLanes;
   OffsetValueType               m_Components;
   OffsetValueType               m_Stride;
 

@@ -34,6 +34,8 @@ public:
     : m_Image(image)
     , m_LaneAxis(laneAxis)
     , m_Region(region)
+    , m_Begin(region.GetIndex(laneAxis))
+    , m_End(m_Begin + static_cast<IndexValueType>(region.GetSize(laneAxis)))
     , m_Components(image->GetNumberOfComponentsPerPixel())
     , m_Stride(m_Components * image->GetOffsetTable()[laneAxis])
   {}
@@ -41,46 +43,50 @@ public:
   /** Writes one component of the children of \c parents voxels, from the index of the first one's lower child on.
    * Returns how many lie in the region and were written. */
   SizeValueType
-  WriteChildren(IndexType          index,
-                const LanePair &   children,
+  WriteChildren(const IndexType &   index,
+                const LanePair &    children,
                 const SizeValueType parents,
-                const unsigned int component)
+                const unsigned int  component)
   {
-    const IndexValueType begin = index[m_LaneAxis];
-    const IndexValueType regionBegin = m_Region.GetIndex(m_LaneAxis);
-    const IndexValueType regionEnd = regionBegin + static_cast<IndexValueType>(m_Region.GetSize(m_LaneAxis));
-    index[m_LaneAxis] = regionBegin;
-    if (!m_Region.IsInside(index))
+    ComponentType * const pixels = this->FindRow(index);
+    if (!pixels)
     {
       return 0;
     }
-    ComponentType * const pixels = this->ComponentsAt(index) + component;
-
-    const auto count = static_cast<IndexValueType>(SubdivisionMasks::Children * parents);
-    if (m_Stride == 1 && regionBegin == begin && regionEnd == begin + count)
+    const IndexValueType begin = index[m_LaneAxis];
+    const auto           count = static_cast<IndexValueType>(SubdivisionMasks::Children * parents);
+    if (m_Stride == 1 && m_Begin == begin && m_End == begin + count)
     {
-      Interleave(children, parents, pixels);
-      return m_Region.GetSize(m_LaneAxis);
+      Interleave(children, parents, pixels + component);
     }
-    // A row that begins or ends with half a voxel, or whose pixels do not lie side by side.
-    if (m_RowLength < count)
+    else
     {
-      m_Row.reset(new ComponentType[count]);
-      m_RowLength = count;
-    }
-    Interleave(children, parents, m_Row.get());
-    for (IndexValueType i = regionBegin; i < regionEnd; ++i)
-    {
-      pixels[(i - regionBegin) * m_Stride] = m_Row[i - begin];
+      // A row that begins or ends with half a voxel, or whose pixels do not lie side by side.
+      this->ReserveRow(count);
+      Interleave(children, parents, m_Row.get());
+      for (IndexValueType i = m_Begin; i < m_End; ++i)
+      {
+        pixels[(i - m_Begin) * m_Stride + component] = m_Row[i - begin];
+      }
     }
     return m_Region.GetSize(m_LaneAxis);
+  }
+
+  /** Asks for the memory of a row that will be written soon. */
+  void
+  PrefetchRow(const IndexType & index) const
+  {
+    if (ComponentType * const pixels = this->FindRow(index))
+    {
+      SubdivisionPrefetch(pixels, pixels + (m_End - m_Begin) * m_Stride);
+    }
   }
 
   /** Writes one component of a row of values as they are. */
   void
   WriteRow(const IndexType & index, const TReal * values, const SizeValueType count, const unsigned int component) const
   {
-    ComponentType * const pixels = this->ComponentsAt(index) + component;
+    ComponentType * const pixels = this->FindRow(index) + component;
     for (SizeValueType i = 0; i < count; ++i)
     {
       pixels[static_cast<OffsetValueType>(i) * m_Stride] = SubdivisionRound<ComponentType>(values[i]);
@@ -88,11 +94,33 @@ public:
   }
 
 private:
+  /** Where the region begins in the row of a pixel; null if the row lies outside it. */
   ComponentType *
-  ComponentsAt(const IndexType & index) const
+  FindRow(const IndexType & index) const
   {
-    auto * const components = reinterpret_cast<ComponentType *>(m_Image->GetBufferPointer());
-    return components + m_Image->ComputeOffset(index) * m_Components;
+    const IndexType & bufferStart = m_Image->GetBufferedRegion().GetIndex();
+    OffsetValueType   offset = 0;
+    for (unsigned int axis = 0; axis < TImage::ImageDimension; ++axis)
+    {
+      const IndexValueType regionStart = m_Region.GetIndex(axis);
+      const IndexValueType i = axis == m_LaneAxis ? regionStart : index[axis];
+      if (i < regionStart || i >= regionStart + static_cast<IndexValueType>(m_Region.GetSize(axis)))
+      {
+        return nullptr;
+      }
+      offset += (i - bufferStart[axis]) * m_Image->GetOffsetTable()[axis];
+    }
+    return reinterpret_cast<ComponentType *>(m_Image->GetBufferPointer()) + offset * m_Components;
+  }
+
+  void
+  ReserveRow(const IndexValueType count)
+  {
+    if (m_RowLength < count)
+    {
+      m_Row.reset(new ComponentType[count]);
+      m_RowLength = count;
+    }
   }
 
   static void
@@ -116,6 +144,8 @@ private:
   TImage *        m_Image;
   unsigned int    m_LaneAxis;
   RegionType      m_Region;
+  IndexValueType  m_Begin;
+  IndexValueType  m_End;
   OffsetValueType m_Components;
   OffsetValueType m_Stride;
 

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <new>
 #include <stdexcept>
 
@@ -168,7 +169,8 @@ struct SubdivisionKernel<TReal>::Implementation
     , Radius(GetRadius(scheme))
   {
     Sweep.Scheme = scheme;
-    Sweep.Tension = tension;
+    // An infinite product with a threshold of 0 would not be 0.
+    Sweep.Tension = std::min<double>(tension, std::numeric_limits<TReal>::max());
     Sweep.HasRowAxis = numberOfAxes > 2;
     Sweep.HasSweepAxis = numberOfAxes > 1;
     LayOut(width, Sweep.HasRowAxis ? height : 1);

@@ -30,6 +30,11 @@ int               NumberOfGeneratedTargets = 0;
 bool
 RegisterTarget(const std::int64_t bit, const SubdivisionTarget & target)
 {
+  if (bit == HWY_SCALAR)
+  {
+    // The portable target, whose loops the compiler vectorises, is faster.
+    return false;
+  }
   GeneratedTargets[NumberOfGeneratedTargets] = target;
   GeneratedTargets[NumberOfGeneratedTargets].Name = hwy::TargetName(bit);
   GeneratedTargetBits[NumberOfGeneratedTargets] = bit;

@@ -16,6 +16,7 @@ struct BenchmarkOptions
   std::vector<unsigned int> Threads{ 2 };
   int                       Repetitions{ 9 };
   int                       SlowRepetitions{ 1 };
+  bool                      WithWindowedSinc{ false };
 };
 
 /** Reads the command line and takes Google Benchmark's own flags (--benchmark_...) off it. On --help and on errors it

@@ -12,6 +12,7 @@
 #include "OutputFloorRows.h"
 
 #include "itkMultiThreaderBase.h"
+#include "itkSubdivisionKernel.h"
 
 #include <benchmark/benchmark.h>
 
@@ -65,7 +66,7 @@ template <typename TPixel>
 void
 RegisterWorkload(const std::string & pixel, const Workload & workload, const BenchmarkOptions & options)
 {
-  std::vector<BenchmarkRow>       rows = MakeFilterRows<TPixel>();
+  std::vector<BenchmarkRow>       rows = MakeFilterRows<TPixel>(options.WithWindowedSinc);
   const std::vector<BenchmarkRow> floorRows = MakeOutputFloorRows<TPixel>();
   rows.insert(rows.end(), floorRows.cbegin(), floorRows.cend());
   for (const auto memory : { OutputMemory::Fresh, OutputMemory::Reused })
@@ -94,19 +95,30 @@ RegisterWorkloads(const BenchmarkOptions & options)
 }
 
 void
+RegisterMultiplyAddPeak(const MultiplyAddTarget & target, unsigned int threads, int repetitions)
+{
+  const std::string name = "MultiplyAddPeak@" + target.Name + "/threads:" + std::to_string(threads);
+  benchmark::RegisterBenchmark(
+    name.c_str(), [=](benchmark::State & state) { MeasureMultiplyAddPeak(state, target, threads); })
+    ->Iterations(1)
+    ->Repetitions(repetitions)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+}
+
+/** The peaks of the instruction sets that the kernel was built for. */
+void
 RegisterMultiplyAddPeaks(const BenchmarkOptions & options)
 {
+  const auto kernelTargets = itk::GetSubdivisionTargets();
   for (const MultiplyAddTarget & target : GetMultiplyAddTargets())
   {
-    for (const unsigned int threads : options.Threads)
+    if (std::find(kernelTargets.cbegin(), kernelTargets.cend(), target.Name) != kernelTargets.cend())
     {
-      const std::string name = "MultiplyAddPeak@" + target.Name + "/threads:" + std::to_string(threads);
-      benchmark::RegisterBenchmark(
-        name.c_str(), [=](benchmark::State & state) { MeasureMultiplyAddPeak(state, target, threads); })
-        ->Iterations(1)
-        ->Repetitions(options.Repetitions)
-        ->UseManualTime()
-        ->Unit(benchmark::kMillisecond);
+      for (const unsigned int threads : options.Threads)
+      {
+        RegisterMultiplyAddPeak(target, threads, options.Repetitions);
+      }
     }
   }
 }

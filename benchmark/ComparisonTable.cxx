@@ -40,9 +40,9 @@ void
 ComparisonTable::ReportRuns(const std::vector<Run> & runs)
 {
   std::vector<double> seconds;
+  std::vector<double> processorSeconds;
+  std::vector<double> systemSeconds;
   std::vector<double> faults;
-  double              userSeconds = 0.0;
-  double              systemSeconds = 0.0;
   for (const Run & run : runs)
   {
     if (run.run_type != Run::RT_Iteration)
@@ -55,9 +55,9 @@ ComparisonTable::ReportRuns(const std::vector<Run> & runs)
       continue;
     }
     seconds.push_back(run.real_accumulated_time / static_cast<double>(run.iterations));
+    systemSeconds.push_back(GetCounter(run, "system_seconds"));
+    processorSeconds.push_back(GetCounter(run, "user_seconds") + systemSeconds.back());
     faults.push_back(GetCounter(run, "minor_faults"));
-    userSeconds += GetCounter(run, "user_seconds");
-    systemSeconds += GetCounter(run, "system_seconds");
   }
   if (seconds.empty())
   {
@@ -66,9 +66,9 @@ ComparisonTable::ReportRuns(const std::vector<Run> & runs)
 
   const std::string & name = runs.front().run_name.function_name;
   const auto          slash = std::min(name.find('/'), name.size());
-  const double        processorSeconds = userSeconds + systemSeconds;
-  const double        systemShare = processorSeconds > 0.0 ? systemSeconds / processorSeconds : 0.0;
-  const Line          line{ name.substr(0, slash), name.substr(slash), Median(seconds), Median(faults), systemShare };
+  const double        processor = Median(processorSeconds);
+  const double        systemShare = processor > 0.0 ? Median(systemSeconds) / processor : 0.0;
+  const Line line{ name.substr(0, slash), name.substr(slash), Median(seconds), processor, systemShare, Median(faults) };
   m_Lines.emplace(runs.front().family_index, line);
   if (line.Filter == referenceFilter)
   {
@@ -88,8 +88,8 @@ ComparisonTable::Finalize()
       workload = line.Workload;
       GetOutputStream() << '\n'
                         << std::left << std::setw(36) << workload << std::right << std::setw(12) << "median ms"
-                        << std::setw(18) << "x " + std::string(referenceFilter) << std::setw(14) << "page faults"
-                        << std::setw(10) << "system" << '\n';
+                        << std::setw(16) << "x " + std::string(referenceFilter) << std::setw(14) << "processor ms"
+                        << std::setw(10) << "system" << std::setw(13) << "page faults" << '\n';
     }
     PrintLine(line);
   }
@@ -100,7 +100,7 @@ ComparisonTable::PrintLine(const Line & line)
 {
   std::ostringstream text;
   text << std::fixed << std::left << std::setw(36) << line.Filter << std::right << std::setw(12)
-       << std::setprecision(2) << 1e3 * line.Seconds << std::setw(18);
+       << std::setprecision(2) << 1e3 * line.Seconds << std::setw(16);
   const auto reference = m_ReferenceSeconds.find(line.Workload);
   if (reference == m_ReferenceSeconds.end())
   {
@@ -110,8 +110,8 @@ ComparisonTable::PrintLine(const Line & line)
   {
     text << reference->second / line.Seconds;
   }
-  text << std::setprecision(0) << std::setw(14) << line.MinorFaults << std::setw(8) << 100.0 * line.SystemShare
-       << " %\n";
+  text << std::setw(14) << 1e3 * line.ProcessorSeconds << std::setprecision(0) << std::setw(8)
+       << 100.0 * line.SystemShare << " %" << std::setw(13) << line.MinorFaults << '\n';
   GetOutputStream() << text.str();
 }
 

@@ -13,8 +13,8 @@ namespace subdivision_benchmark
 {
 
 /** Prints, when all is measured, one line a row: the median time, how many times as fast as ExpandImageFilter with
- * linear interpolation on the same workload and memory, the page faults of one update, and the system's share of the
- * processor time. */
+ * linear interpolation on the same workload and memory, the processor time of all threads, the system's share of it,
+ * and the page faults. */
 class ComparisonTable : public benchmark::BenchmarkReporter
 {
 public:
@@ -34,8 +34,9 @@ private:
     std::string Filter;
     std::string Workload;
     double      Seconds;
-    double      MinorFaults;
+    double      ProcessorSeconds;
     double      SystemShare;
+    double      MinorFaults;
   };
 
   void

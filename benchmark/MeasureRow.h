@@ -12,9 +12,7 @@ class State;
 namespace subdivision_benchmark
 {
 
-/** Times one repetition of a row: `Update()` alone, without setting up and without releasing the output.
- * Its counters, all for one update: `lane_operations` (where the row knows them), `minor_faults`, `user_seconds` and
- * `system_seconds`. */
+/** Measures one repetition of a row: `Update()` alone, without setting up and without releasing the output. */
 void
 MeasureRow(benchmark::State & state, const BenchmarkRow & row, const Workload & workload, OutputMemory memory);
 

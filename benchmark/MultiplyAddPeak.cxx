@@ -2,10 +2,10 @@
 #include "MultiplyAddPeak.h"
 
 #include "ParallelFor.h"
+#include "UpdateTimer.h"
 
 #include <benchmark/benchmark.h>
 
-#include <chrono>
 #include <numeric>
 
 namespace subdivision_benchmark
@@ -16,17 +16,15 @@ MeasureMultiplyAddPeak(benchmark::State & state, const MultiplyAddTarget & targe
 {
   // Some tens of milliseconds on current processors.
   constexpr std::uint64_t rounds = std::uint64_t{ 1 } << 24;
-  using Clock = std::chrono::steady_clock;
 
   std::vector<double> laneOperations(threads);
+  const auto          multiplyAdd = [&](std::size_t i) { laneOperations[i] = target.Loop(rounds); };
+  UpdateTimer         timer(state);
   for (auto _ : state)
   {
-    const auto start = Clock::now();
-    ParallelFor(threads, [&](std::size_t i) { laneOperations[i] = target.Loop(rounds); });
-    const std::chrono::duration<double> elapsed = Clock::now() - start;
-    state.SetIterationTime(elapsed.count());
+    timer.Time([&] { ParallelFor(threads, multiplyAdd); });
   }
-  state.counters["lane_operations"] = std::accumulate(laneOperations.cbegin(), laneOperations.cend(), 0.0);
+  timer.SetCounters(std::accumulate(laneOperations.cbegin(), laneOperations.cend(), 0.0));
 }
 
 } // namespace subdivision_benchmark

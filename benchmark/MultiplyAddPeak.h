@@ -26,7 +26,7 @@ struct MultiplyAddTarget
 std::vector<MultiplyAddTarget>
 GetMultiplyAddTargets();
 
-/** Times the loop of one target on `threads` threads at once. Counter `lane_operations`: multiply-adds of one lane. */
+/** Measures the loop of one target on `threads` threads at once; a lane operation is one lane's multiply-add. */
 void
 MeasureMultiplyAddPeak(benchmark::State & state, const MultiplyAddTarget & target, unsigned int threads);
 

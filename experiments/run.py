@@ -12,7 +12,7 @@ from report import Finding
 from volumes import VolumeError
 
 EXPERIMENTS = ("phantom", "subsampling", "compression", "metrology", "surfaces", "smoothness")
-USING_VOLUMES = ("subsampling", "compression")  # their run() also takes the volumes named on the command line
+USING_VOLUMES = ("subsampling", "compression", "surfaces")  # their run() also takes the volumes named on the command line
 ASSETS = "results"
 
 INTRODUCTION = """# The paper's experiments, measured with this module

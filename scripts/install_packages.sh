@@ -1,0 +1,52 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs, on Debian 12, the packages that the given purposes need and this machine lacks:
+#   install_packages.sh build|sample|test|benchmark|experiments|format...
+# What each purpose needs stands here and nowhere else, but for the experiments, which bring their own list.
+set -euo pipefail
+repository=$(cd "$(dirname "$0")/.." && pwd)
+
+declare -A packages=(
+  [build]="cmake g++ libcli11-dev libhwy-dev libinsighttoolkit5-dev ninja-build"
+  [sample]="invesalius-examples python3-matplotlib python3-numpy"
+  [test]="castxml libgtest-dev python3"
+  [benchmark]="libbenchmark-dev python3"
+  [experiments]="$(tr '\n' ' ' < "$repository/experiments/debian-packages.txt")"
+)
+
+is_missing()
+{
+  [[ $(dpkg-query --show --showformat '${db:Status-Status}' "$1" 2> /dev/null) != installed ]]
+}
+
+as_root()
+{
+  if [[ $EUID -eq 0 ]]; then
+    "$@"
+  elif command -v sudo > /dev/null; then
+    sudo "$@"
+  else
+    echo "install_packages.sh: neither root nor sudo; as root, run: $*" >&2
+    return 1
+  fi
+}
+
+missing=()
+for purpose in "$@"; do
+  if [[ ! -v packages[$purpose] ]]; then
+    echo "install_packages.sh: '$purpose' is none of: ${!packages[*]}" >&2
+    exit 2
+  fi
+  for package in ${packages[$purpose]}; do
+    if is_missing "$package"; then
+      missing+=("$package")
+    fi
+  done
+done
+
+if [[ ${#missing[@]} -gt 0 ]]; then
+  echo "Installing ${missing[*]}"
+  as_root apt-get update --quiet --quiet
+  as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install --yes --quiet --quiet --no-install-recommends "${missing[@]}" < /dev/null
+fi

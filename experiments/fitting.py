@@ -74,7 +74,7 @@ def fit_cylinder(points, axis):
 
 
 def perpendicularity(plane, axis, diameter):
-    """How far a plane face of that diameter leans, from one rim to the other, against the axis it should be square to."""
+    """How far a plane face of that diameter leans, from rim to rim, against the axis it should meet squarely."""
     sine = np.linalg.norm(np.cross(plane.normal, axis))
     return float(sine * diameter)
 

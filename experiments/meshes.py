@@ -52,7 +52,9 @@ class Mesh:
         points.SetData(numpy_to_vtk(np.ascontiguousarray(self.points[:, ::-1]), deep=True))
         triangles = np.ascontiguousarray(self.triangles[:, ::-1], dtype=np.int64)
         offsets = np.arange(0, triangles.size + 1, 3, dtype=np.int64)
-        cells.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(triangles.ravel(), deep=True))
+        cells.SetData(
+            numpy_to_vtkIdTypeArray(offsets, deep=True), numpy_to_vtkIdTypeArray(triangles.ravel(), deep=True)
+        )
         data = vtkPolyData()
         data.SetPoints(points)
         data.SetPolys(cells)

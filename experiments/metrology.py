@@ -80,7 +80,9 @@ def measure(points):
         "diameter": [c.diameter - 2 * radius for c, (radius, _, _) in zip(cylinders, regions)],
         "roundness": [c.roundness for c in cylinders],
         "distance": [
-            bottom.distance_to(plane.centre) - true_distances[name] for name, plane in planes.items() if name != "bottom"
+            bottom.distance_to(plane.centre) - true_distances[name]
+            for name, plane in planes.items()
+            if name != "bottom"
         ],
         "perpendicularity": [
             fitting.perpendicularity(plane, datum.axis, 2 * specimen.FACES[name][2]) for name, plane in planes.items()
@@ -114,7 +116,7 @@ def measure_scans(setting):
 
 
 def statistics(deviations):
-    """Average, standard deviation, maximum and 0.95 quantile of the sizes of the deviations, as in the paper's table."""
+    """Average, standard deviation, maximum and 0.95 quantile of the deviations' sizes, as in the paper's table."""
     sizes = np.abs(deviations)
     return tuple(float(f) for f in (sizes.mean(), sizes.std(ddof=1), sizes.max(), np.quantile(sizes, 0.95)))
 
@@ -123,7 +125,13 @@ def table(deviations):
     measured = [(heading, ".2f") for heading in ("average", "standard deviation", "maximum", "0.95 quantile", "bias")]
     paper = [(f"paper: {heading}", ".2f") for heading, _ in measured[:4]]
     rows = [
-        [quantity, TITLES[method], *statistics(values), float(values.mean()), *PAPER.get((quantity, method), [None] * 4)]
+        [
+            quantity,
+            TITLES[method],
+            *statistics(values),
+            float(values.mean()),
+            *PAPER.get((quantity, method), [None] * 4),
+        ]
         for (quantity, method), values in deviations.items()
     ]
     caption = (
@@ -150,8 +158,8 @@ def draw(placed, found, output_folder):
 def method_text(setting):
     """What was done, in words."""
     return Text(
-        f"{setting.scans} synthetic scans of {setting.size}³ voxels of {setting.voxel * MICROMETRES:.0f} µm, each of the"
-        f" specimen in another pose: partial-volume voxels, a Gaussian blur of {specimen.BLUR_VOXELS:g} voxels, white"
+        f"{setting.scans} synthetic scans of {setting.size}³ voxels of {setting.voxel * MICROMETRES:.0f} µm, each of"
+        f" the specimen in another pose: partial-volume voxels, a Gaussian blur of {specimen.BLUR_VOXELS:g} voxels, white"
         f" noise of {100 * specimen.NOISE:g} % of the contrast (chosen to give the original at 50 µm about the paper's"
         " roundness), 16 bit. The surface is the isosurface half-way between air and metal; planes and cylinders are"
         " fitted to its points by least squares. Roundness is the largest minus the smallest distance of a cylinder's"
@@ -180,8 +188,8 @@ def findings(deviations, setting):
     yield Finding(
         "Non-oscillatory subdivision makes roundness worse (paper: 23.3 to 28.94 µm).",
         bool(after > before),
-        f"Here {before:.2f} to {after:.2f} µm. White noise alone makes the roundness of these scans, and the scheme does"
-        " not amplify it; the paper's scans also carry artefacts of real scanners that this model lacks.",
+        f"Here {before:.2f} to {after:.2f} µm. White noise alone makes the roundness of these scans, and the scheme"
+        " does not amplify it; the paper's scans also carry artefacts of real scanners that this model lacks.",
     )
     before, after = averages("distance")
     yield Finding(

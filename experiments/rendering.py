@@ -59,7 +59,7 @@ class Scale:
         return mpl.cm.ScalarMappable(mpl.colors.Normalize(self.lowest, self.highest), mpl.colormaps[self.colours])
 
 
-def _ensure_display():
+def ensure_display():
     """Debian's VTK draws through X11 and ends the process where there is none: start a virtual one."""
     if os.environ.get("DISPLAY"):
         return
@@ -107,7 +107,7 @@ def _aim(renderer, view):
 
 def render(panel, view, scale):
     """The panel's mesh as an RGB image."""
-    _ensure_display()
+    ensure_display()
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     renderer.AddActor(_actor(panel, scale))

@@ -17,7 +17,12 @@ BOTTOM, TOP = -3.0, 3.0
 STEPS = ((3.1, -3.0, -1.0), (2.5, -1.0, 1.0), (1.9, 1.0, 3.0))
 BORES = ((1.2, -3.0, -1.1), (0.9, -1.1, 0.9), (0.6, 0.9, 3.0))
 # The faces: (height, inner radius, outer radius).
-FACES = {"bottom": (-3.0, 1.2, 3.1), "lower step": (-1.0, 2.5, 3.1), "upper step": (1.0, 1.9, 2.5), "top": (3.0, 0.6, 1.9)}
+FACES = {
+    "bottom": (-3.0, 1.2, 3.1),
+    "lower step": (-1.0, 2.5, 3.1),
+    "upper step": (1.0, 1.9, 2.5),
+    "top": (3.0, 0.6, 1.9),
+}
 
 AIR, ALUMINIUM = 8000.0, 32000.0
 BLUR_VOXELS = 0.8

@@ -5,6 +5,8 @@
 #include "SubdivisionReference.h"
 
 #include "itkImageFileWriter.h"
+#include "itkMetaImageIOFactory.h"
+#include "itkNrrdImageIOFactory.h"
 
 #include <iostream>
 #include <stdexcept>
@@ -187,6 +189,8 @@ main(int argc, char * argv[])
   }
   try
   {
+    itk::MetaImageIOFactory::RegisterOneFactory();
+    itk::NrrdImageIOFactory::RegisterOneFactory();
     WriteAll(argv[1]);
   }
   catch (const std::exception & error)

@@ -15,20 +15,20 @@ namespace SubdivisionTest
 template <typename TImage>
 using ScalarOf = typename itk::NumericTraits<typename TImage::PixelType>::ValueType;
 
-/** Whether the filter computes with double: for double and for 32- and 64-bit integers. */
+/** Whether a type makes the filter compute with double: double itself, and 32- and 64-bit integers. */
 template <typename TScalar>
-constexpr bool ComputesInDouble = std::is_same<TScalar, double>::value ||
-                                  (std::is_integral<TScalar>::value && sizeof(TScalar) >= 4);
+constexpr bool NeedsDouble = std::is_same<TScalar, double>::value ||
+                             (std::is_integral<TScalar>::value && sizeof(TScalar) >= 4);
 
 /** The largest difference allowed between the filter and the reference, before rounding to integers: so many units
  * in the last place of the largest magnitude in the image. On noise, where thresholds of every subset of axes add up,
  * the sums of magnitudes in the scheme reach (2.6)^3 times that magnitude. */
-template <typename TInputScalar>
+template <typename TInputScalar, typename TOutputScalar>
 double
 AllowedDifference(double largestMagnitude)
 {
-  const double epsilon = ComputesInDouble<TInputScalar> ? std::numeric_limits<double>::epsilon()
-                                                        : std::numeric_limits<float>::epsilon();
+  constexpr bool inDouble = NeedsDouble<TInputScalar> || NeedsDouble<TOutputScalar>;
+  const double   epsilon = inDouble ? std::numeric_limits<double>::epsilon() : std::numeric_limits<float>::epsilon();
   return 16.0 * epsilon * largestMagnitude;
 }
 
@@ -181,10 +181,11 @@ CompareWithReference(unsigned int cases, double low, double high, unsigned int c
     filter->SetTension(drawn.tension);
     filter->SetBoundaryCondition(boundaries.Get(drawn.boundary));
     SetAxes(filter.GetPointer(), drawn.axes);
-    const auto output = Run(filter.GetPointer(), input.GetPointer());
+    const auto output = RunFilter(filter.GetPointer(), input.GetPointer());
 
     ASSERT_EQ(output->GetNumberOfComponentsPerPixel(), components);
-    const double allowed = AllowedDifference<ScalarOf<TInputImage>>(std::max(std::abs(low), std::abs(high)));
+    const double allowed =
+      AllowedDifference<ScalarOf<TInputImage>, ScalarOf<TOutputImage>>(std::max(std::abs(low), std::abs(high)));
     for (unsigned int c = 0; c < components; ++c)
     {
       const ref::Subdivision<D> reference(ToGrid(input.GetPointer(), c), drawn.ReferenceSettings());

@@ -257,7 +257,7 @@ LineOf(const std::vector<double> & values)
 /** The output of a filter that is run on an image, cut off from the pipeline. */
 template <typename TFilter>
 typename TFilter::OutputImageType::Pointer
-Run(TFilter * filter, const typename TFilter::InputImageType * input)
+RunFilter(TFilter * filter, const typename TFilter::InputImageType * input)
 {
   filter->SetInput(input);
   filter->UpdateLargestPossibleRegion();
@@ -317,6 +317,23 @@ SameBytesAsPartOf(const TImage * part, const TImage * whole)
     }
   }
   return testing::AssertionSuccess();
+}
+
+/** A part of a region, from one pixel to the whole. */
+template <typename TRegion>
+TRegion
+RandomSubRegion(const TRegion & whole, std::mt19937 & engine)
+{
+  const auto draw = [&](long first, long last) { return std::uniform_int_distribution<long>(first, last)(engine); };
+  TRegion    region;
+  for (unsigned int w = 0; w < TRegion::ImageDimension; ++w)
+  {
+    const long size = static_cast<long>(whole.GetSize(w));
+    const long part = draw(1, size);
+    region.SetSize(w, part);
+    region.SetIndex(w, whole.GetIndex(w) + draw(0, size - part));
+  }
+  return region;
 }
 
 template <typename TImage>

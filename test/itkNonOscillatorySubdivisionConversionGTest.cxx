@@ -19,7 +19,7 @@ ConvertedFrom(double value, SchemeEnum scheme)
   auto filter = Converter<TReal, TInteger>::New();
   filter->SetScheme(scheme);
   const auto output =
-    Run(filter.GetPointer(), LineOf<itk::Image<TReal, 1>>(std::vector<double>(71, value)).GetPointer());
+    RunFilter(filter.GetPointer(), LineOf<itk::Image<TReal, 1>>(std::vector<double>(71, value)).GetPointer());
   const TInteger * first = ScalarsOf(output.GetPointer());
   for (std::size_t i = 1; i < 142; ++i)
   {
@@ -33,8 +33,7 @@ void
 ExpectConversions()
 {
   using Limits = std::numeric_limits<TInteger>;
-  const double infinity = std::numeric_limits<double>::infinity();
-  const bool   isSigned = Limits::is_signed;
+  const bool isSigned = Limits::is_signed;
   for (const SchemeEnum scheme : AllSchemes())
   {
     SCOPED_TRACE(testing::Message() << scheme << ", " << sizeof(TInteger) << " bytes, signed " << isSigned);
@@ -47,16 +46,98 @@ ExpectConversions()
     EXPECT_EQ(converted(1e30), Limits::max());
     EXPECT_EQ(converted(-1e30), Limits::lowest());
     EXPECT_EQ(converted(std::nan("")), TInteger{ 0 });
-    // Infinities that meet in a sum of both signs are NaN; the B-spline's masks are positive.
-    if (scheme == SchemeEnum::BSpline)
+  }
+}
+
+/** Values whose conversion is at issue: infinities, NaN, the ends of the range and beyond, and ties, which go to the even
+ * integer. */
+template <typename TInteger>
+std::vector<std::pair<double, TInteger>>
+DelicateConversions()
+{
+  using Limits = std::numeric_limits<TInteger>;
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double highest = static_cast<double>(Limits::max());
+  const double lowest = static_cast<double>(Limits::lowest());
+  const auto   orZero = [](int value) { return static_cast<TInteger>(Limits::is_signed ? value : 0); };
+  return { { infinity, Limits::max() },
+           { -infinity, Limits::lowest() },
+           { std::nan(""), TInteger{ 0 } },
+           { highest * 1.5, Limits::max() },
+           { lowest * 1.5 - 100.0, Limits::lowest() },
+           { 0.5, TInteger{ 0 } },
+           { 1.5, TInteger{ 2 } },
+           { 2.5, TInteger{ 2 } },
+           { -0.5, TInteger{ 0 } },
+           { -1.5, orZero(-2) },
+           { -2.5, orZero(-2) },
+           { 0.49999997, TInteger{ 0 } },
+           { -0.0, TInteger{ 0 } } };
+}
+
+/** The conversion of rows in vector code, at every position of rows of every length up to 70. */
+template <typename TInteger>
+void
+ExpectRowsConverted()
+{
+  const auto values = DelicateConversions<TInteger>();
+  for (std::size_t count = 1; count <= 70; ++count)
+  {
+    std::vector<float>    lower(count);
+    std::vector<float>    upper(count);
+    std::vector<TInteger> out(2 * count + 1, TInteger{ 77 });
+    for (std::size_t i = 0; i < count; ++i)
     {
-      EXPECT_EQ(converted(infinity), Limits::max());
-      EXPECT_EQ(converted(-infinity), Limits::lowest());
+      lower[i] = static_cast<float>(values[(i + count) % values.size()].first);
+      upper[i] = static_cast<float>(values[(2 * i + 3) % values.size()].first);
     }
+    itk::InterleaveChildren(lower.data(), upper.data(), count, out.data());
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      EXPECT_EQ(+out[2 * i], +values[(i + count) % values.size()].second) << lower[i] << ", row of " << count;
+      EXPECT_EQ(+out[2 * i + 1], +values[(2 * i + 3) % values.size()].second) << upper[i] << ", row of " << count;
+    }
+    EXPECT_EQ(+out[2 * count], 77) << "written past a row of " << count;
+  }
+}
+
+template <typename TInteger>
+void
+ExpectValuesRounded()
+{
+  for (const auto & [value, expected] : DelicateConversions<TInteger>())
+  {
+    EXPECT_EQ((itk::SubdivisionRound<TInteger, double>(value)), expected) << value;
   }
 }
 
 } // namespace
+
+TEST(NonOscillatorySubdivisionConversion, RowsInVectorCode)
+{
+  for (const std::string & target : itk::GetSubdivisionTargets())
+  {
+    SCOPED_TRACE(target);
+    itk::SetSubdivisionTarget(target);
+    ExpectRowsConverted<std::int8_t>();
+    ExpectRowsConverted<std::uint8_t>();
+    ExpectRowsConverted<std::int16_t>();
+    ExpectRowsConverted<std::uint16_t>();
+  }
+  itk::SetSubdivisionTarget("");
+}
+
+TEST(NonOscillatorySubdivisionConversion, ValuesOneByOne)
+{
+  ExpectValuesRounded<signed char>();
+  ExpectValuesRounded<unsigned char>();
+  ExpectValuesRounded<short>();
+  ExpectValuesRounded<unsigned short>();
+  ExpectValuesRounded<int>();
+  ExpectValuesRounded<unsigned int>();
+  ExpectValuesRounded<long long>();
+  ExpectValuesRounded<unsigned long long>();
+}
 
 TEST(NonOscillatorySubdivisionConversion, FloatToEightBits)
 {
@@ -106,7 +187,7 @@ TEST(NonOscillatorySubdivisionConversion, OvershootsSaturate)
   auto filter = itk::NonOscillatorySubdivisionImageFilter<Bytes>::New();
   filter->SetScheme(SchemeEnum::Linear);
   const auto output =
-    Run(filter.GetPointer(), LineOf<Bytes>({ 0, 0, 0, 0, 0, 255, 255, 255, 255, 255 }).GetPointer());
+    RunFilter(filter.GetPointer(), LineOf<Bytes>({ 0, 0, 0, 0, 0, 255, 255, 255, 255, 255 }).GetPointer());
   const std::vector<int> expected{ 0, 0, 0, 0, 0, 2, 3, 0, 0, 53, 202, 255, 255, 252, 253, 255, 255, 255, 255, 255 };
   for (std::size_t m = 0; m < expected.size(); ++m)
   {
@@ -121,7 +202,7 @@ TEST(NonOscillatorySubdivisionConversion, RealOutputKeepsOvershoots)
   using Reals = itk::Image<float, 1>;
   auto filter = itk::NonOscillatorySubdivisionImageFilter<Bytes, Reals>::New();
   filter->SetScheme(SchemeEnum::Linear);
-  const auto output = Run(filter.GetPointer(), LineOf<Bytes>({ 0, 0, 0, 0, 0, 128, 128, 128, 128, 128 }).GetPointer());
+  const auto output = RunFilter(filter.GetPointer(), LineOf<Bytes>({ 0, 0, 0, 0, 0, 128, 128, 128, 128, 128 }).GetPointer());
   EXPECT_EQ(ScalarsOf(output.GetPointer())[8], -14.0f);
   EXPECT_EQ(ScalarsOf(output.GetPointer())[11], 142.0f);
   EXPECT_EQ(ScalarsOf(output.GetPointer())[5], 1.25f);

@@ -81,7 +81,7 @@ TEST(NonOscillatorySubdivisionErrors, ZeroSizedInput)
 {
   auto filter = DoubleFilter::New();
   filter->SetInput(MakeImage<DoubleImage>(MakeRegion<DoubleImage>({ 0, 0, 0 }, { 4, 0, 3 })));
-  EXPECT_TRUE(Names(ErrorOf(filter.GetPointer()), { "size", "[4, 0, 3]", "one voxel" }));
+  EXPECT_TRUE(Names(ErrorOf(filter.GetPointer()), { "size", "[4, 0, 3]", "at least one" }));
 
   const auto good = MakeImage<DoubleImage>(MakeRegion<DoubleImage>({ 0, 0, 0 }, { 4, 1, 3 }));
   good->FillBuffer(1.5);
@@ -107,7 +107,7 @@ TEST(NonOscillatorySubdivisionErrors, MoreThanThreeAxes)
   input->FillBuffer(3.0f);
   filter->SetInput(input);
   SetAxes(filter.GetPointer(), { true, true, true, true });
-  EXPECT_TRUE(Names(ErrorOf(filter.GetPointer()), { "4", "three", "axes" }));
+  EXPECT_TRUE(Names(ErrorOf(filter.GetPointer()), { "4 axes", "at most 3" }));
 
   SetAxes(filter.GetPointer(), { true, false, true, true });
   EXPECT_EQ(ErrorOf(filter.GetPointer()), "");

@@ -72,7 +72,7 @@ ForEachChoiceOfAxes(const TCheck & check)
     SCOPED_TRACE(testing::Message() << "axes " << axes[0] << axes[1] << axes[2]);
     auto filter = DoubleFilter::New();
     SetAxes(filter.GetPointer(), axes);
-    const auto output = Run(filter.GetPointer(), input.GetPointer());
+    const auto output = RunFilter(filter.GetPointer(), input.GetPointer());
     check(input.GetPointer(), output.GetPointer(), axes);
   }
 }
@@ -128,7 +128,7 @@ TEST(NonOscillatorySubdivisionGeometry, NoAxisKeepsTheImage)
   const auto input = PlacedImage();
   auto       filter = DoubleFilter::New();
   SetAxes(filter.GetPointer(), { false, false, false });
-  const auto output = Run(filter.GetPointer(), input.GetPointer());
+  const auto output = RunFilter(filter.GetPointer(), input.GetPointer());
   EXPECT_TRUE(SameBytes(output.GetPointer(), input.GetPointer()));
   EXPECT_EQ(output->GetOrigin(), input->GetOrigin());
 }
@@ -155,7 +155,7 @@ TEST(NonOscillatorySubdivisionGeometry, RampStaysInPlace)
   {
     auto filter = DoubleFilter::New();
     filter->SetScheme(scheme);
-    const auto output = Run(filter.GetPointer(), input.GetPointer());
+    const auto output = RunFilter(filter.GetPointer(), input.GetPointer());
     auto       interior = output->GetBufferedRegion();
     interior.ShrinkByRadius(10);
     for (itk::ImageRegionIteratorWithIndex<DoubleImage> it(output, interior); !it.IsAtEnd(); ++it)
@@ -177,8 +177,8 @@ TEST(NonOscillatorySubdivisionGeometry, StartIndexDoesNotChangeValues)
     BoundaryConditions<DoubleImage> boundaries;
     auto                            filter = DoubleFilter::New();
     filter->SetBoundaryCondition(boundaries.Get(boundary));
-    const auto a = Run(filter.GetPointer(), atZero.GetPointer());
-    const auto b = Run(filter.GetPointer(), shifted.GetPointer());
+    const auto a = RunFilter(filter.GetPointer(), atZero.GetPointer());
+    const auto b = RunFilter(filter.GetPointer(), shifted.GetPointer());
     EXPECT_EQ(LargestDifference(a.GetPointer(), b.GetPointer()), 0.0) << NameOf(boundary);
   }
 }
@@ -189,7 +189,7 @@ TEST(NonOscillatorySubdivisionGeometry, FirstThreeAxesByDefault)
   const auto input = MakeImage<Series>(MakeRegion<Series>({ 1, 2, 3, 4 }, { 3, 2, 4, 5 }));
   FillWithTestData(input.GetPointer(), 0.0, 1.0, 4);
   auto       filter = itk::NonOscillatorySubdivisionImageFilter<Series>::New();
-  const auto output = Run(filter.GetPointer(), input.GetPointer());
+  const auto output = RunFilter(filter.GetPointer(), input.GetPointer());
   EXPECT_EQ(output->GetLargestPossibleRegion(), MakeRegion<Series>({ 2, 4, 6, 4 }, { 6, 4, 8, 5 }));
   EXPECT_EQ(output->GetSpacing()[2], 0.5);
   EXPECT_EQ(output->GetSpacing()[3], 1.0);

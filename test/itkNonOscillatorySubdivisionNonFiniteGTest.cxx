@@ -61,7 +61,7 @@ Subdivided(const TImage * image, SchemeEnum scheme, BoundaryKind boundary)
   auto                       filter = itk::NonOscillatorySubdivisionImageFilter<TImage>::New();
   filter->SetScheme(scheme);
   filter->SetBoundaryCondition(boundaries.Get(boundary));
-  return Run(filter.GetPointer(), image);
+  return RunFilter(filter.GetPointer(), image);
 }
 
 /** Puts a bad value at a voxel and compares with the result without it. */

@@ -19,7 +19,7 @@ SubdivideLine(const std::vector<double> & values, SchemeEnum scheme, double tens
   filter->SetScheme(scheme);
   filter->SetTension(tension);
   filter->SetBoundaryCondition(boundaries.Get(boundary));
-  const auto     output = Run(filter.GetPointer(), LineOf<Line>(values).GetPointer());
+  const auto     output = RunFilter(filter.GetPointer(), LineOf<Line>(values).GetPointer());
   const double * first = ScalarsOf(output.GetPointer());
   return { first, first + CountScalars(output.GetPointer()) };
 }
@@ -55,7 +55,7 @@ ErrorOnWave(long n, SchemeEnum scheme, double tension)
   filter->SetTension(tension);
   filter->SetBoundaryCondition(boundaries.Get(BoundaryKind::Periodic));
   const auto input = WaveAverages(n);
-  return LargestDifference(Run(filter.GetPointer(), input.GetPointer()).GetPointer(),
+  return LargestDifference(RunFilter(filter.GetPointer(), input.GetPointer()).GetPointer(),
                            WaveAverages(2 * n).GetPointer());
 }
 
@@ -142,7 +142,7 @@ TEST(NonOscillatorySubdivisionNumbers, PeriodicLinearKeepsTheMean)
   auto                            filter = DoubleFilter::New();
   filter->SetScheme(SchemeEnum::Linear);
   filter->SetBoundaryCondition(boundaries.Get(BoundaryKind::Periodic));
-  const auto output = Run(filter.GetPointer(), input.GetPointer());
+  const auto output = RunFilter(filter.GetPointer(), input.GetPointer());
 
   const auto mean = [](const DoubleImage * image) {
     const double * first = ScalarsOf(image);

@@ -98,7 +98,7 @@ TEST(NonOscillatorySubdivisionObject, LeavesItsInputAlone)
   const auto               time = input->GetPixelContainer()->GetMTime();
 
   auto       filter = FloatFilter::New();
-  const auto output = Run(filter.GetPointer(), input.GetPointer());
+  const auto output = RunFilter(filter.GetPointer(), input.GetPointer());
   EXPECT_NE(output->GetPixelContainer(), input->GetPixelContainer());
   EXPECT_EQ(std::memcmp(before.data(), ScalarsOf(input.GetPointer()), before.size() * sizeof(float)), 0);
   EXPECT_EQ(input->GetBufferedRegion(), region);
@@ -114,8 +114,8 @@ TEST(NonOscillatorySubdivisionObject, OtherSchemesIgnoreTheTension)
   {
     auto filter = FloatFilter::New();
     filter->SetScheme(scheme);
-    const auto once = Run(filter.GetPointer(), input.GetPointer());
+    const auto once = RunFilter(filter.GetPointer(), input.GetPointer());
     filter->SetTension(7.0);
-    EXPECT_TRUE(SameBytes(Run(filter.GetPointer(), input.GetPointer()).GetPointer(), once.GetPointer())) << scheme;
+    EXPECT_TRUE(SameBytes(RunFilter(filter.GetPointer(), input.GetPointer()).GetPointer(), once.GetPointer())) << scheme;
   }
 }

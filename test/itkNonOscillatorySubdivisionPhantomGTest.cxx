@@ -22,7 +22,7 @@ SubdividedPhantom(SchemeEnum scheme, double tension)
   auto filter = DoubleFilter::New();
   filter->SetScheme(scheme);
   filter->SetTension(tension);
-  return Run(filter.GetPointer(), phantom.GetPointer());
+  return RunFilter(filter.GetPointer(), phantom.GetPointer());
 }
 
 std::pair<double, double>

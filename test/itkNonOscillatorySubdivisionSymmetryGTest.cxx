@@ -19,7 +19,7 @@ Subdivided(const DoubleImage * image, SchemeEnum scheme, BoundaryKind boundary)
   filter->SetScheme(scheme);
   filter->SetTension(1.5);
   filter->SetBoundaryCondition(boundaries.Get(boundary));
-  return Run(filter.GetPointer(), image);
+  return RunFilter(filter.GetPointer(), image);
 }
 
 DoubleImage::Pointer
@@ -27,7 +27,7 @@ Permuted(const DoubleImage * image, const std::array<unsigned int, 3> & order)
 {
   auto permute = itk::PermuteAxesImageFilter<DoubleImage>::New();
   permute->SetOrder(itk::FixedArray<unsigned int, 3>(order.data()));
-  return Run(permute.GetPointer(), image);
+  return RunFilter(permute.GetPointer(), image);
 }
 
 DoubleImage::Pointer
@@ -39,7 +39,7 @@ Flipped(const DoubleImage * image, bool x, bool y, bool z)
   axes[1] = y;
   axes[2] = z;
   flip->SetFlipAxes(axes);
-  return Run(flip.GetPointer(), image);
+  return RunFilter(flip.GetPointer(), image);
 }
 
 /** Noise, blocks and spikes within [-1, 1]. */

@@ -1,0 +1,50 @@
+# Tests in Python: the programs as a user runs them, and the experiments. A Debian system's Python comes first, as it has
+# the packages that Debian's numpy and the like install for.
+
+find_program(NonOscillatorySubdivision_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
+find_program(NonOscillatorySubdivision_PYTHON python3)
+mark_as_advanced(NonOscillatorySubdivision_PYTHON)
+
+# Registers a test script that finds the given program targets by the environment; where a program, Python or a Python
+# package is missing, the test is skipped and says so.
+function(add_python_test script)
+  cmake_parse_arguments(PARSE_ARGV 1 argument "" "" "PROGRAMS;PACKAGES")
+  get_filename_component(name "${script}" NAME_WE)
+  set(missing "")
+  set(environment "")
+  foreach(program IN LISTS argument_PROGRAMS)
+    if(TARGET ${program})
+      string(REGEX REPLACE "([a-z])([A-Z])" "\\1_\\2" variable "${program}")
+      string(TOUPPER "${variable}" variable)
+      list(APPEND environment "${variable}=$<TARGET_FILE:${program}>")
+    else()
+      string(APPEND missing " ${program}")
+    endif()
+  endforeach()
+  if(NOT NonOscillatorySubdivision_PYTHON)
+    string(APPEND missing " python3")
+  else()
+    foreach(package IN LISTS argument_PACKAGES)
+      execute_process(
+        COMMAND "${NonOscillatorySubdivision_PYTHON}" -c "import ${package}"
+        RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET
+      )
+      if(NOT result EQUAL 0)
+        string(APPEND missing " ${package}")
+      endif()
+    endforeach()
+  endif()
+
+  if(missing)
+    add_test(NAME ${name} COMMAND "${CMAKE_COMMAND}" -E echo "skipped, for want of:${missing}")
+    set_tests_properties(${name} PROPERTIES SKIP_REGULAR_EXPRESSION "skipped, for want of")
+  else()
+    add_test(NAME ${name} COMMAND "${NonOscillatorySubdivision_PYTHON}" "${CMAKE_CURRENT_SOURCE_DIR}/${script}")
+    set_tests_properties(${name} PROPERTIES ENVIRONMENT "${environment}")
+  endif()
+endfunction()
+
+add_python_test(subdivide_volume_test.py PROGRAMS SubdivideVolume)
+add_python_test(compare_volumes_test.py PROGRAMS CompareVolumes)
+add_python_test(experiments_test.py PROGRAMS SubdivideVolume CompareVolumes PACKAGES numpy scipy pywt matplotlib skimage vtkmodules
+)

@@ -24,10 +24,6 @@ from meshes import Mesh
 PIXELS = 420
 
 
-class RenderingError(Exception):
-    """No picture can be drawn here, in one line."""
-
-
 @dataclass
 class Panel:
     """A mesh under a title, with a value for each of its points or each of its triangles."""
@@ -64,7 +60,7 @@ def ensure_display():
     if os.environ.get("DISPLAY"):
         return
     if not shutil.which("Xvfb"):
-        raise RenderingError("no X11 display to draw on: set DISPLAY, or install Xvfb")
+        raise common.ProgramError("no X11 display to draw on: set DISPLAY, or install Xvfb")
     server = subprocess.Popen(
         ["Xvfb", "-displayfd", "1", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
         stdout=subprocess.PIPE,
@@ -74,7 +70,7 @@ def ensure_display():
     atexit.register(server.terminate)
     number = server.stdout.readline().decode().strip()
     if not number:
-        raise RenderingError("Xvfb did not start")
+        raise common.ProgramError("Xvfb did not start")
     os.environ["DISPLAY"] = f":{number}"
 
 

@@ -15,6 +15,7 @@ from scipy.spatial.transform import Rotation
 EXPERIMENTS = pathlib.Path(__file__).resolve().parents[1] / "experiments"
 sys.path.insert(0, str(EXPERIMENTS))
 
+import common  # noqa: E402
 import fitting  # noqa: E402
 import meshes  # noqa: E402
 import metrology  # noqa: E402
@@ -327,7 +328,7 @@ class Rendering(unittest.TestCase):
     def setUp(self):
         try:
             rendering.ensure_display()
-        except rendering.RenderingError as error:
+        except common.ProgramError as error:
             self.skipTest(str(error))
 
     def render(self, values):

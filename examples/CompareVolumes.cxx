@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // CompareVolumes REFERENCE TEST: how far a volume is from a reference, as text or as JSON.
 
-#include "itkImageFidelityCalculator.h"
+#include "InputImage.h"
+#include "LibraryMessages.h"
+#include "OneLineMessage.h"
 
+#include "itkImageFidelityCalculator.h"
 #include "itkImageFileReader.h"
-#include "itkImageIOFactory.h"
+#include "itkImageSeriesReader.h"
 
 #include <CLI/CLI.hpp>
 
@@ -12,12 +15,21 @@
 #include <iostream>
 #include <limits>
 #include <locale>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-namespace {
+namespace
+{
+enum ExitCode
+{
+  Success = 0,
+  RunFailed = 1,
+  WrongUsage = 2
+};
+
 struct Options
 {
   std::string         referencePath;
@@ -38,30 +50,34 @@ GetQuantileLevels(const Options & options)
 }
 
 /** Reads the header. */
-itk::ImageIOBase::Pointer
+InputImage
 OpenScalarImage(const std::string & path)
 {
-  const itk::ImageIOBase::Pointer io = itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::IOFileModeEnum::ReadMode);
-  if (io == nullptr)
+  const LibraryMessages messages;
+  const InputImage      input = OpenInput(path, "");
+  if (input.NumberOfComponents != 1)
   {
-    throw std::runtime_error(path + ": there is no such file, or it is not an image that ITK can read");
+    throw std::runtime_error("cannot compare " + path + ": its voxels have " +
+                             std::to_string(input.NumberOfComponents) + " components");
   }
-  io->SetFileName(path);
-  io->ReadImageInformation();
-  if (io->GetNumberOfComponents() != 1)
-  {
-    throw std::runtime_error(path + ": its voxels have " + std::to_string(io->GetNumberOfComponents()) +
-                             " components; only scalar images can be compared");
-  }
-  return io;
+  return input;
 }
 
 template <typename TImage>
 typename TImage::Pointer
-ReadImage(const std::string & path)
+ReadImage(const InputImage & input)
 {
+  if (input.FileNames.size() > 1)
+  {
+    const auto reader = itk::ImageSeriesReader<TImage>::New();
+    reader->SetImageIO(input.ImageIO);
+    reader->SetFileNames(input.FileNames);
+    reader->Update();
+    return reader->GetOutput();
+  }
   const auto reader = itk::ImageFileReader<TImage>::New();
-  reader->SetFileName(path);
+  reader->SetImageIO(input.ImageIO);
+  reader->SetFileName(input.FileNames.front());
   reader->Update();
   return reader->GetOutput();
 }
@@ -132,16 +148,19 @@ PrintText(const TCalculator & calculator)
 
 template <typename TPixel, unsigned int VDimension>
 void
-Compare(const Options & options)
+Compare(const InputImage & reference, const InputImage & test, const Options & options)
 {
   using ImageType = itk::Image<TPixel, VDimension>;
   const auto calculator = itk::ImageFidelityCalculator<ImageType>::New();
-  calculator->SetReferenceImage(ReadImage<ImageType>(options.referencePath));
-  calculator->SetTestImage(ReadImage<ImageType>(options.testPath));
-  calculator->SetPeak(options.peak);
-  calculator->SetQuantileLevels(GetQuantileLevels(options));
-  calculator->SetUseImageSpacing(options.useSpacing);
-  calculator->Update();
+  {
+    const LibraryMessages messages;
+    calculator->SetReferenceImage(ReadImage<ImageType>(reference));
+    calculator->SetTestImage(ReadImage<ImageType>(test));
+    calculator->SetPeak(options.peak);
+    calculator->SetQuantileLevels(GetQuantileLevels(options));
+    calculator->SetUseImageSpacing(options.useSpacing);
+    calculator->Update();
+  }
   if (options.json)
   {
     PrintJson(*calculator);
@@ -154,91 +173,61 @@ Compare(const Options & options)
 
 template <typename TPixel>
 void
-CompareInDimension(unsigned int dimension, const Options & options)
+CompareInDimension(const InputImage & reference, const InputImage & test, const Options & options)
 {
-  switch (dimension)
+  switch (reference.Dimension)
   {
     case 1:
     case 2:
-      return Compare<TPixel, 2>(options);
+      return Compare<TPixel, 2>(reference, test, options);
     case 3:
-      return Compare<TPixel, 3>(options);
-    case 4:
-      return Compare<TPixel, 4>(options);
+      return Compare<TPixel, 3>(reference, test, options);
     default:
-      throw std::runtime_error(options.referencePath + ": images of " + std::to_string(dimension) +
-                               " dimensions cannot be compared, only those of 2 to 4");
+      return Compare<TPixel, 4>(reference, test, options);
   }
 }
 
-/** Whether float holds every value of the image's type. */
+/** Whether float holds every value of this type. */
 bool
-FitsInFloat(const itk::ImageIOBase & io)
+FitsInFloat(PixelComponent component)
 {
-  switch (io.GetComponentType())
-  {
-    case itk::IOComponentEnum::UCHAR:
-    case itk::IOComponentEnum::CHAR:
-    case itk::IOComponentEnum::USHORT:
-    case itk::IOComponentEnum::SHORT:
-    case itk::IOComponentEnum::FLOAT:
-      return true;
-    default:
-      return false;
-  }
+  return component == PixelComponent::FLOAT || GetPixelComponentSize(component) <= 2;
 }
 
 void
 Run(const Options & options)
 {
-  const auto         reference = OpenScalarImage(options.referencePath);
-  const auto         test = OpenScalarImage(options.testPath);
-  const unsigned int dimension = reference->GetNumberOfDimensions();
-  if (test->GetNumberOfDimensions() != dimension)
+  const InputImage reference = OpenScalarImage(options.referencePath);
+  const InputImage test = OpenScalarImage(options.testPath);
+  if (test.Dimension != reference.Dimension)
   {
-    throw std::runtime_error("the images differ in dimension: the reference has " + std::to_string(dimension) +
-                             ", the test image " + std::to_string(test->GetNumberOfDimensions()));
+    throw std::runtime_error("the images differ in dimension: the reference has " +
+                             std::to_string(reference.Dimension) + ", the test image " +
+                             std::to_string(test.Dimension));
   }
-  if (FitsInFloat(*reference) && FitsInFloat(*test))
+  if (FitsInFloat(reference.Component) && FitsInFloat(test.Component))
   {
-    CompareInDimension<float>(dimension, options);
+    CompareInDimension<float>(reference, test, options);
   }
   else
   {
-    CompareInDimension<double>(dimension, options);
+    CompareInDimension<double>(reference, test, options);
   }
-}
-
-/** The message on one line, without the name and the address of the object that threw it. */
-std::string
-ToOneLine(std::string message)
-{
-  const std::size_t address = message.find("(0x");
-  const std::size_t end = message.find("): ", address);
-  if (address != std::string::npos && end != std::string::npos)
-  {
-    message.erase(0, end + 3);
-  }
-  std::istringstream words(message);
-  std::string        line;
-  for (std::string word; words >> word;)
-  {
-    line += (line.empty() ? "" : " ") + word;
-  }
-  return line;
 }
 
 int
-Fail(const std::string & message)
+Fail(ExitCode code, const std::string & message)
 {
-  std::cerr << "CompareVolumes: " << ToOneLine(message) << '\n';
-  return EXIT_FAILURE;
+  std::cerr << "CompareVolumes: " << MakeOneLine(message) << '\n';
+  return code;
 }
 
 void
 Describe(CLI::App & app, Options & options)
 {
-  app.add_option("REFERENCE", options.referencePath, "The image that is compared with.")->required();
+  app
+    .add_option("REFERENCE", options.referencePath, "The image, or folder with a DICOM series, that is compared with.")
+    ->required();
   app.add_option("TEST", options.testPath, "The image that is judged: same size, same geometry.")->required();
   app.add_flag("--json", options.json, "Print a JSON object; all errors in it are fractions.");
   app.add_option("--peak", options.peak, "The peak (default: the range of the reference).")->check(CLI::PositiveNumber);
@@ -262,18 +251,26 @@ main(int argc, char * argv[])
   {
     app.parse(argc, argv);
     Run(options);
-    return EXIT_SUCCESS;
+    return Success;
   }
   catch (const CLI::CallForHelp & help)
   {
     return app.exit(help);
   }
+  catch (const CLI::ParseError & error)
+  {
+    return Fail(WrongUsage, std::string(error.what()) + " (see --help)");
+  }
+  catch (const std::bad_alloc &)
+  {
+    return Fail(RunFailed, "there is not enough memory");
+  }
   catch (const itk::ExceptionObject & error)
   {
-    return Fail(error.GetDescription());
+    return Fail(RunFailed, error.GetDescription());
   }
   catch (const std::exception & error)
   {
-    return Fail(error.what());
+    return Fail(RunFailed, error.what());
   }
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Doubles the resolution of an image file. See SubdivideVolume --help.
 
+#include "FileIntegrity.h"
 #include "Interrupt.h"
 #include "LibraryMessages.h"
 #include "MemoryPlan.h"
+#include "OneLineMessage.h"
 #include "Options.h"
 #include "Subdivide.h"
 
@@ -11,7 +13,6 @@
 
 #include <cstdio>
 #include <new>
-#include <regex>
 
 #include <unistd.h>
 
@@ -24,20 +25,10 @@ enum ExitCode
   WrongUsage = 2
 };
 
-/** The message in one line, without ITK's own prefix. */
-std::string
-MakeOneLine(const std::string & message)
-{
-  const std::string text = std::regex_replace(message, std::regex("ITK ERROR: \\w+\\(0x[0-9a-f]+\\): "), "");
-  const std::string line = std::regex_replace(text, std::regex("\\s+"), " ");
-  const auto        last = line.find_last_not_of(' ');
-  return last == std::string::npos ? "unknown error" : line.substr(line.front() == ' ' ? 1 : 0, last + 1);
-}
-
 int
 Fail(ExitCode code, const std::string & message)
 {
-  std::fprintf(stderr, "SubdivideVolume: %s\n", MakeOneLine(message).c_str());
+  std::fprintf(GetTerminal(), "SubdivideVolume: %s\n", MakeOneLine(message).c_str());
   return code;
 }
 
@@ -46,7 +37,7 @@ Warn(const Options & options, const std::string & message)
 {
   if (!options.Quiet)
   {
-    std::fprintf(stderr, "SubdivideVolume: warning: %s\n", message.c_str());
+    std::fprintf(GetTerminal(), "SubdivideVolume: warning: %s\n", message.c_str());
   }
 }
 
@@ -88,11 +79,31 @@ PrintImage(const char * name, const ImageGrid & grid, PixelComponent component, 
               range.Maximum);
 }
 
+/** Exceptions of ITK itself do not always name the file. */
+template <typename TFunction>
+auto
+NameFile(const std::string & path, TFunction && function)
+{
+  try
+  {
+    return function();
+  }
+  catch (const itk::MemoryAllocationError &)
+  {
+    throw std::bad_alloc();
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    throw std::runtime_error("cannot process " + path + ": " + error.GetDescription());
+  }
+}
+
 SubdivisionReport
 SubdivideAnyType(const SubdivisionJob & job)
 {
-  return WithComponentType(job.Input.Component,
-                           [&job](auto type) { return Subdivide<decltype(type)>(job); });
+  return NameFile(job.Options.Input, [&job] {
+    return WithComponentType(job.Input.Component, [&job](auto type) { return Subdivide<decltype(type)>(job); });
+  });
 }
 
 void
@@ -100,7 +111,7 @@ Run(const Options & options)
 {
   const LibraryMessages messages;
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(GetNumberOfThreads(options));
-  const InputImage     input = OpenInput(options.Input, options.Series);
+  const InputImage     input = NameFile(options.Input, [&options] { return OpenInput(options.Input, options.Series); });
   OutputImage          output(options.Output, options.Compress);
   const PixelComponent component =
     options.OutputType == "same" ? input.Component : GetPixelComponent(options.OutputType);
@@ -115,6 +126,7 @@ Run(const Options & options)
 
   Progress                progress(GetProgressStyle(options));
   const SubdivisionReport report = SubdivideAnyType({ options, input, output, component, progress });
+  CheckMessages(options.Input, messages.GetText());
   output.Commit();
   progress.Finish();
   if (!options.Quiet)
@@ -152,10 +164,6 @@ main(int argc, char * argv[])
   catch (const std::bad_alloc &)
   {
     return Fail(RunFailed, "there is not enough memory; try --memory or --streams, with .mha or .mhd files");
-  }
-  catch (const itk::ExceptionObject & error)
-  {
-    return Fail(RunFailed, error.GetDescription());
   }
   catch (const std::exception & error)
   {

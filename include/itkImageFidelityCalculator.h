@@ -11,7 +11,8 @@
 #include <utility>
 #include <vector>
 
-namespace itk {
+namespace itk
+{
 /** \class ImageFidelityCalculator
  * \brief Compares a test image with a reference: PSNR, relative L2 error, quantiles of the error, total variation.
  *

@@ -12,7 +12,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace itk {
+namespace itk
+{
 template <typename TReferenceImage, typename TTestImage>
 ImageFidelityCalculator<TReferenceImage, TTestImage>::ImageFidelityCalculator()
 {

@@ -14,7 +14,8 @@
 #include <utility>
 #include <vector>
 
-namespace itk {
+namespace itk
+{
 /** \class RadixQuantiles
  * \brief Exact quantiles of non-negative numbers that are shown four times and never stored.
  *

@@ -69,9 +69,10 @@ class CompareVolumes(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         return json.loads(result.stdout, parse_constant=refuse_constant)
 
-    def assert_fails(self, words, *arguments):
+    def assert_fails(self, words, *arguments, code=1):
+        """The exit code is 2 where the command line is wrong."""
         result = self.run_program(*arguments)
-        self.assertNotEqual(result.returncode, 0)
+        self.assertEqual(result.returncode, code)
         self.assertEqual(result.stdout, "")
         self.assertRegex(result.stderr, r"\ACompareVolumes: [^\n]+\n\Z")
         self.assertIn(words, result.stderr)
@@ -204,24 +205,31 @@ class Errors(CompareVolumes):
         self.reference = self.write_mha("r.mha", [2, 2], "f", [0, 3, 4, 0])
 
     def test_arguments(self):
-        self.assert_fails("REFERENCE is required")
-        self.assert_fails("TEST is required", self.reference)
-        self.assert_fails("--wrong", self.reference, self.reference, "--wrong")
-        for peak in ("0", "-1", "high", "nan", "inf"):
-            self.assert_fails("peak", self.reference, self.reference, "--peak", peak)
-        for level in ("-0.1", "1.1", "half", "nan"):
-            self.assert_fails("quantile", self.reference, self.reference, "--quantile", level)
+        self.assert_fails("REFERENCE is required", code=2)
+        self.assert_fails("TEST is required", self.reference, code=2)
+        self.assert_fails("--wrong", self.reference, self.reference, "--wrong", code=2)
+        for peak in ("0", "-1", "high", "inf"):
+            self.assert_fails("--peak", self.reference, self.reference, "--peak", peak, code=2)
+        for level in ("-0.1", "1.1", "half"):
+            self.assert_fails("--quantile", self.reference, self.reference, "--quantile", level, code=2)
+        self.assert_fails("The peak must be finite", self.reference, self.reference, "--peak", "nan")
+        self.assert_fails("level of a quantile", self.reference, self.reference, "--quantile", "nan")
 
     def test_files(self):
         missing = self.path("missing.mha")
-        self.assert_fails("missing.mha: there is no such file", self.reference, missing)
-        self.assert_fails("missing.mha: there is no such file", missing, self.reference)
+        self.assert_fails("missing.mha: No such file", self.reference, missing)
+        self.assert_fails("missing.mha: No such file", missing, self.reference)
         self.assert_fails("notes.txt", self.reference, self.write_bytes("notes.txt", b"not an image\n"))
-        with open(self.write_nrrd("whole.nrrd", [2, 2], "f", [0, 3, 4, 0]), "rb") as file:
-            whole = file.read()
-        self.assert_fails("cut.nrrd", self.reference, self.write_bytes("cut.nrrd", whole[:-5]))
         colours = self.write_mha("rgb.mha", [2, 2], "B", [0] * 12, channels=3)
         self.assert_fails("rgb.mha: its voxels have 3 components", self.reference, colours)
+
+    def test_truncated_files(self):
+        self.write_nrrd("r.nrrd", [2, 2], "f", [0, 3, 4, 0])
+        for extension in ("mha", "nrrd"):
+            with open(self.path(f"r.{extension}"), "rb") as file:
+                whole = file.read()
+            cut = self.write_bytes(f"cut.{extension}", whole[:-5])
+            self.assert_fails(f"cut.{extension}", self.reference, cut)
 
     def test_images_that_differ(self):
         values = [0, 3, 4, 0]
@@ -232,7 +240,7 @@ class Errors(CompareVolumes):
 
     def test_too_many_dimensions(self):
         image = self.write_mha("r.mha", [1, 1, 1, 1, 2], "f", [0, 1])
-        self.assert_fails("5 dimensions", image, image)
+        self.assert_fails("5 axes", image, image)
 
     def test_images_without_figures(self):
         constant = self.write_mha("c.mha", [2, 2], "f", [7] * 4)

@@ -208,24 +208,15 @@ private:
   void
   ReturnKernel(KernelPointer kernel);
 
-  /** Subdivides one component of the given parents, a single position along every axis that is not subdivided. */
+  /** Subdivides what reader and writer are set to; reports the number of pixels that were written. */
   template <typename TReport>
   void
-  SweepTile(KernelType &            kernel,
-            const ReaderType &      reader,
-            WriterType &            writer,
-            const AxisListType &    axes,
-            const InputRegionType & parents,
-            unsigned int            component,
-            const TReport &         report);
-
-  /** Converts one component of a row of pixels, where no axis is subdivided. Returns the number of pixels. */
-  static SizeValueType
-  CopyRow(const ReaderType & reader,
-          const WriterType & writer,
-          const IndexType &  start,
-          SizeValueType      count,
-          unsigned int       component);
+  SweepTile(KernelType &                kernel,
+            const ReaderType &          reader,
+            WriterType &                writer,
+            const SubdivisionTileAxes & axes,
+            const InputRegionType &     parents,
+            const TReport &             report) const;
 
   DefaultBoundaryConditionType m_DefaultBoundaryCondition;
   BoundaryConditionPointerType m_BoundaryCondition{ &m_DefaultBoundaryCondition };

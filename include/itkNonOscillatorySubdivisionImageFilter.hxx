@@ -10,6 +10,7 @@
 #include "itkTotalProgressReporter.h"
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 
 namespace itk
@@ -306,32 +307,36 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GenerateData()
     this->DynamicThreadedGenerateData(this->ComputeChildren(tile));
   };
 
-  // Not every version of every threader passes on what a thread throws.
-  std::exception_ptr        firstException;
-  std::mutex                exceptionMutex;
-  MultiThreaderBase * const threader = this->GetMultiThreader();
-  threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
-  threader->SetUpdateProgress(false);
-  threader->ParallelizeArray(
-    0,
-    InputRegionType(tiles).GetNumberOfPixels(),
-    [&](const SizeValueType number) {
-      try
+  // Work units take tiles as they get done with others: all threads stay busy, and the calling one, the only one that
+  // may tell observers, reports progress to the end. Not every version of every threader passes on what a thread throws.
+  const SizeValueType        numberOfTiles = InputRegionType(tiles).GetNumberOfPixels();
+  std::atomic<SizeValueType> nextTile{ 0 };
+  std::exception_ptr         firstException;
+  std::mutex                 exceptionMutex;
+  const auto                 computeTiles = [&](SizeValueType) {
+    try
+    {
+      for (SizeValueType number = nextTile++; number < numberOfTiles; number = nextTile++)
       {
         computeTile(number);
       }
-      catch (...)
-      {
-        const std::lock_guard<std::mutex> lock(exceptionMutex);
-        firstException = firstException ? firstException : std::current_exception();
-      }
-    },
-    nullptr);
+    }
+    catch (...)
+    {
+      const std::lock_guard<std::mutex> lock(exceptionMutex);
+      firstException = firstException ? firstException : std::current_exception();
+    }
+  };
+  MultiThreaderBase * const threader = this->GetMultiThreader();
+  threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
+  threader->SetUpdateProgress(false);
+  threader->ParallelizeArray(0, std::min<SizeValueType>(this->GetNumberOfWorkUnits(), numberOfTiles), computeTiles, nullptr);
   m_IdleKernels.clear();
   if (firstException)
   {
     std::rethrow_exception(firstException);
   }
+  this->UpdateProgress(1.0f);
 
   this->AfterThreadedGenerateData();
 }
@@ -370,32 +375,34 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::DynamicThreaded
   const OutputRegionType & outputRegion)
 {
   OutputImageType * const output = this->GetOutput();
-  TotalProgressReporter   progress(this, output->GetRequestedRegion().GetNumberOfPixels());
+  // The rest is for the end: the sum of all parts may exceed 1 by a rounding error, and progress would begin anew.
+  constexpr float       progressWeight = 0.99f;
+  TotalProgressReporter progress(this, output->GetRequestedRegion().GetNumberOfPixels(), 100, progressWeight);
   progress.CheckAbortGenerateData();
 
-  const AxisListType axes = this->GetAxes();
-  const unsigned int lanes = axes.empty() ? 0 : axes[0];
-  ReaderType         reader(this->GetInput(), m_BoundaryCondition, lanes, this->ComputeStencil(outputRegion));
-  WriterType         writer(output, lanes, outputRegion);
-  KernelPointer      kernel = axes.empty() ? nullptr : this->BorrowKernel();
+  const SubdivisionTileAxes axes(this->GetAxes());
+  const bool                isSubdivided = axes.GetNumber() > 0;
+  const InputRegionType     parents = this->ComputeParents(outputRegion);
+  const IndexValueType      halo = isSubdivided ? KernelType::GetRadius(m_Scheme) : 0;
+  ReaderType reader(this->GetInput(), m_BoundaryCondition, axes, parents, halo, this->ComputeStencil(outputRegion));
+  WriterType writer(output, axes, outputRegion);
+  KernelPointer kernel = isSubdivided ? this->BorrowKernel() : nullptr;
 
-  // Every position along the axes that are not subdivided, and every component, is an image of its own.
-  const InputRegionType parents = this->ComputeParents(outputRegion);
-  SizeType              images = parents.GetSize();
-  images[lanes] = 1;
-  for (const unsigned int axis : axes)
+  // Every position along the axes that are not the tile's, and every component, is an image of its own.
+  SizeType images = parents.GetSize();
+  for (unsigned int axis = 0; axis < Dimension; ++axis)
   {
-    images[axis] = 1;
+    images[axis] = axes.Has(axis) ? 1 : images[axis];
   }
   const SizeValueType numberOfImages = InputRegionType(images).GetNumberOfPixels();
   const unsigned int  components = output->GetNumberOfComponentsPerPixel();
   for (SizeValueType number = 0; number < numberOfImages; ++number)
   {
-    const SizeType position = Unravel(number, images);
-    IndexType      start = parents.GetIndex();
+    IndexType      position = parents.GetIndex();
+    const SizeType offset = Unravel(number, images);
     for (unsigned int axis = 0; axis < Dimension; ++axis)
     {
-      start[axis] += static_cast<IndexValueType>(position[axis]);
+      position[axis] += static_cast<IndexValueType>(offset[axis]);
     }
     for (unsigned int component = 0; component < components; ++component)
     {
@@ -406,13 +413,17 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::DynamicThreaded
           progress.Completed(pixels);
         }
       };
+      reader.SetImage(position, component);
+      writer.SetImage(position, component);
       if (kernel)
       {
-        SweepTile(*kernel, reader, writer, axes, InputRegionType(start, parents.GetSize()), component, report);
+        SweepTile(*kernel, reader, writer, axes, parents, report);
       }
       else
       {
-        report(CopyRow(reader, writer, start, parents.GetSize(lanes), component));
+        std::vector<RealType> row(parents.GetSize(axes.GetLanes()));
+        reader.ReadRow(0, 0, row.data());
+        report(writer.WriteRow(row.data()));
       }
     }
   }
@@ -423,83 +434,57 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::DynamicThreaded
 }
 
 template <typename TInputImage, typename TOutputImage>
-SizeValueType
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::CopyRow(const ReaderType &  reader,
-                                                                         const WriterType &  writer,
-                                                                         const IndexType &   start,
-                                                                         const SizeValueType count,
-                                                                         const unsigned int  component)
-{
-  std::vector<RealType> row(count);
-  reader.ReadRow(start, count, component, row.data());
-  writer.WriteRow(start, row.data(), count, component);
-  return count;
-}
-
-template <typename TInputImage, typename TOutputImage>
 template <typename TReport>
 void
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(KernelType &            kernel,
-                                                                           const ReaderType &      reader,
-                                                                           WriterType &            writer,
-                                                                           const AxisListType &    axes,
-                                                                           const InputRegionType & parents,
-                                                                           const unsigned int      component,
-                                                                           const TReport &         report)
+NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(KernelType &                kernel,
+                                                                           const ReaderType &          reader,
+                                                                           WriterType &                writer,
+                                                                           const SubdivisionTileAxes & axes,
+                                                                           const InputRegionType &     parents,
+                                                                           const TReport &             report) const
 {
-  const unsigned int lanes = axes[0];
-  // Without such an axis there is a single row or plane, at the start of the tile.
-  const bool           hasRows = axes.size() > 2;
-  const bool           hasSweep = axes.size() > 1;
-  const auto           radius = static_cast<IndexValueType>(KernelType::GetRadius(m_Scheme));
-  const auto           width = static_cast<IndexValueType>(parents.GetSize(lanes));
-  const IndexValueType height = hasRows ? static_cast<IndexValueType>(parents.GetSize(axes[1])) : 1;
-  const IndexValueType depth = hasSweep ? static_cast<IndexValueType>(parents.GetSize(axes.back())) : 1;
-  const IndexValueType rowHalo = hasRows ? radius : 0;
-  const IndexValueType sweepHalo = hasSweep ? radius : 0;
+  // Without rows or a sweep there is a single one.
+  const auto           halo = static_cast<IndexValueType>(KernelType::GetRadius(m_Scheme));
+  const IndexValueType rowHalo = axes.HasRows() ? halo : 0;
+  const IndexValueType planeHalo = axes.HasSweep() ? halo : 0;
+  const auto           width = parents.GetSize(axes.GetLanes());
+  const auto           height = static_cast<IndexValueType>(axes.HasRows() ? parents.GetSize(axes.GetRows()) : 1);
+  const auto           depth = static_cast<IndexValueType>(axes.HasSweep() ? parents.GetSize(axes.GetSweep()) : 1);
+  const IndexValueType firstRow = parents.GetIndex(axes.GetRows());
+  const IndexValueType firstPlane = parents.GetIndex(axes.GetSweep());
+  const IndexValueType firstLane = SubdivisionMasks::Children * parents.GetIndex(axes.GetLanes());
 
-  const auto indexOf = [&](const IndexValueType lane, const IndexValueType row, const IndexValueType plane) {
-    IndexType index = parents.GetIndex();
-    index[lanes] += lane;
-    index[hasRows ? axes[1] : lanes] += row;
-    index[axes.back()] += plane;
-    return index;
-  };
-  const auto readWidth = static_cast<SizeValueType>(width + 2 * radius);
-  // Calls a function with the index and the rows of the children of each row of a plane of parents.
-  const auto forEachRowOfChildren = [&](const IndexValueType plane, const IndexValueType row, const auto & function) {
-    IndexType index = indexOf(0, row, plane);
-    for (const unsigned int axis : axes)
+  const auto forEachChildRow = [&](const IndexValueType row, const IndexValueType plane, const auto & function) {
+    for (int planeChild = 0; planeChild < (axes.HasSweep() ? SubdivisionMasks::Children : 1); ++planeChild)
     {
-      index[axis] *= SubdivisionMasks::Children;
-    }
-    for (int sweepChild = 0; sweepChild < (hasSweep ? SubdivisionMasks::Children : 1); ++sweepChild)
-    {
-      for (int rowChild = 0; rowChild < (hasRows ? SubdivisionMasks::Children : 1); ++rowChild)
+      for (int rowChild = 0; rowChild < (axes.HasRows() ? SubdivisionMasks::Children : 1); ++rowChild)
       {
-        function(index, sweepChild, rowChild);
-        index[hasRows ? axes[1] : lanes] += 1;
+        function(SubdivisionMasks::Children * (firstRow + row) + rowChild,
+                 SubdivisionMasks::Children * (firstPlane + plane) + planeChild,
+                 rowChild,
+                 planeChild);
       }
-      index[hasRows ? axes[1] : lanes] -= hasRows ? SubdivisionMasks::Children : 1;
-      index[axes.back()] += 1;
     }
   };
 
-  kernel.StartTile(static_cast<std::size_t>(width), static_cast<std::size_t>(height));
-  for (IndexValueType plane = -sweepHalo; plane < depth + sweepHalo; ++plane)
+  kernel.StartTile(width, static_cast<std::size_t>(height));
+  for (IndexValueType plane = -planeHalo; plane < depth + planeHalo; ++plane)
   {
-    const IndexValueType complete = plane - sweepHalo;
+    // Rows are short: the memory of the next input plane and of the output is asked for while the kernel computes.
+    const IndexValueType complete = plane - planeHalo;
     for (IndexValueType row = -rowHalo; row < height + rowHalo; ++row)
     {
-      reader.ReadRow(indexOf(-radius, row, plane), readWidth, component, kernel.GetInputRow(row) - radius);
-    }
-    for (IndexValueType row = -rowHalo; row < height + rowHalo; ++row)
-    {
-      reader.PrefetchRow(indexOf(-radius, row, plane + 1), readWidth);
+      reader.ReadRow(firstRow + row, firstPlane + plane, kernel.GetInputRow(row) - halo);
+      if (plane + 1 < depth + planeHalo)
+      {
+        reader.PrefetchRow(firstRow + row, firstPlane + plane + 1);
+      }
     }
     for (IndexValueType row = 0; row < height && complete >= 0; ++row)
     {
-      forEachRowOfChildren(complete, row, [&](const IndexType & index, int, int) { writer.PrefetchRow(index); });
+      forEachChildRow(row, complete, [&](const IndexValueType childRow, const IndexValueType childPlane, int, int) {
+        writer.PrefetchRow(childRow, childPlane);
+      });
     }
     if (!kernel.AdvancePlane())
     {
@@ -509,10 +494,11 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(Kerne
     {
       const auto    children = kernel.ComputeChildren(static_cast<std::size_t>(row));
       SizeValueType written = 0;
-      forEachRowOfChildren(complete, row, [&](const IndexType & index, const int sweepChild, const int rowChild) {
-        written += writer.WriteChildren(
-          index, children.Rows[sweepChild][rowChild], parents.GetSize(lanes), component);
-      });
+      const auto    write = [&](IndexValueType childRow, IndexValueType childPlane, int rowChild, int planeChild) {
+        written +=
+          writer.WriteChildren(firstLane, childRow, childPlane, children.Rows[planeChild][rowChild], width);
+      };
+      forEachChildRow(row, complete, write);
       report(written);
     }
   }

@@ -100,8 +100,7 @@ public:
   static unsigned int
   GetRadius(SchemeEnum scheme);
 
-  /** The tile size, width by height, at which the working set of a sweep just fits this machine's second-level
-   * cache. Heights apply with three axes only. */
+  /** The largest tiles, width by height, that are computed efficiently. Heights apply with three axes only. */
   static void
   GetRecommendedTileSize(unsigned int numberOfAxes, std::size_t & width, std::size_t & height);
 

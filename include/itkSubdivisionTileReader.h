@@ -4,6 +4,7 @@
 
 #include "itkMirrorBoundaryCondition.h"
 #include "itkSubdivisionPixelTraits.h"
+#include "itkSubdivisionTileAxes.h"
 
 #include "itkDefaultConvertPixelTraits.h"
 #include "itkPeriodicBoundaryCondition.h"
@@ -16,7 +17,9 @@ namespace itk
 
 /** \class SubdivisionTileReader
  *
- * \brief Gathers rows of pixels, inside and outside an image, as rows of real values.
+ * \brief Gathers the rows of a tile and of its halo, inside and outside an image, as rows of real values.
+ *
+ * What is to be read along each axis is found out once for a tile.
  *
  * \ingroup NonOscillatorySubdivision
  */
@@ -29,77 +32,89 @@ public:
   using ComponentType = SubdivisionComponentType<TImage>;
   using BoundaryConditionType = ImageBoundaryCondition<TImage, TImage>;
 
-  static constexpr unsigned int Dimension = TImage::ImageDimension;
-
   /**
-   * \param image the image, whose buffer holds what \c needed asks of it
+   * \param image the image, whose buffer holds what \c stencil asks of it
    * \param boundaryCondition supplies the pixels outside the image
-   * \param laneAxis the axis that rows run along
-   * \param needed the pixels that matter; all others are read as 0
+   * \param axes the axes of the tile
+   * \param tile the pixels of the tile, without its halo
+   * \param halo the width of the halo along the axes of the tile
+   * \param stencil the pixels that matter; others are read as 0
    */
   SubdivisionTileReader(const TImage *                image,
                         const BoundaryConditionType * boundaryCondition,
-                        const unsigned int            laneAxis,
-                        const RegionType &            needed)
+                        const SubdivisionTileAxes &   axes,
+                        const RegionType &            tile,
+                        const IndexValueType          halo,
+                        const RegionType &            stencil)
     : m_Image(image)
     , m_BoundaryCondition(boundaryCondition)
-    , m_LaneAxis(laneAxis)
-    , m_Needed(needed)
-    , m_NeededLanes(LaneInterval(needed))
-    , m_ImageLanes(LaneInterval(image->GetLargestPossibleRegion()))
+    , m_Axes(axes)
     , m_Components(image->GetNumberOfComponentsPerPixel())
-    , m_Stride(m_Components * image->GetOffsetTable()[laneAxis])
+    , m_Stride(m_Components * image->GetOffsetTable()[axes.GetLanes()])
+    , m_MapIndex(FindIndexMap(boundaryCondition))
+    , m_Lanes(WithHalo(tile, axes.GetLanes(), halo))
+    , m_LaneOffsets(this->FindOffsets(axes.GetLanes(), m_Lanes, stencil))
   {
-    if (dynamic_cast<const ZeroFluxNeumannBoundaryCondition<TImage, TImage> *>(boundaryCondition))
+    if (axes.HasRows())
     {
-      m_MapIndex = [](IndexValueType i, IndexValueType size) { return i < 0 ? 0 : std::min(i, size - 1); };
+      m_RowOffsets = this->FindOffsets(axes.GetRows(), WithHalo(tile, axes.GetRows(), halo), stencil);
     }
-    else if (dynamic_cast<const MirrorBoundaryCondition<TImage, TImage> *>(boundaryCondition))
+    if (axes.HasSweep())
     {
-      m_MapIndex = &MirrorIndex;
+      m_PlaneOffsets = this->FindOffsets(axes.GetSweep(), WithHalo(tile, axes.GetSweep(), halo), stencil);
     }
-    else if (dynamic_cast<const PeriodicBoundaryCondition<TImage, TImage> *>(boundaryCondition))
-    {
-      m_MapIndex = [](IndexValueType i, IndexValueType size) { return (i % size + size) % size; };
-    }
+    const Interval needed = Intersect(m_Lanes, WithHalo(stencil, axes.GetLanes(), 0));
+    m_Inside = Intersect(needed, WithHalo(image->GetLargestPossibleRegion(), axes.GetLanes(), 0));
   }
 
-  /** Reads one component of \c count pixels along the lane axis. */
+  /** Chooses the position along the axes that are not the tile's, and the component that is read. */
   void
-  ReadRow(const IndexType & first, const SizeValueType count, const unsigned int component, TReal * const values) const
+  SetImage(const IndexType & position, const unsigned int component)
   {
-    const IndexValueType begin = first[m_LaneAxis];
-    const Interval       row{ begin, begin + static_cast<IndexValueType>(count) };
-    const Interval       needed = this->IsNeeded(first) ? Intersect(row, m_NeededLanes) : Interval{ begin, begin };
-    std::fill_n(values, needed.Begin - row.Begin, TReal{ 0 });
-    std::fill_n(values + (needed.End - begin), row.End - needed.End, TReal{ 0 });
+    m_Position = position;
+    m_Component = component;
+    m_Pixels = m_Axes.template FindImage<const ComponentType>(m_Image, position) + component;
+  }
 
-    const Interval              inside = Intersect(needed, m_ImageLanes);
-    const ComponentType * const pixels = this->FindRow(first);
-    if (!pixels || inside.Begin >= inside.End)
+  /** Reads a row and its halo into \c values. Row and plane are indices along their axes, if the tile has these. */
+  void
+  ReadRow(const IndexValueType row, const IndexValueType plane, TReal * const values) const
+  {
+    const OffsetValueType rowOffset = m_Axes.HasRows() ? m_RowOffsets[row] : 0;
+    const OffsetValueType planeOffset = m_Axes.HasSweep() ? m_PlaneOffsets[plane] : 0;
+    if (rowOffset == SubdivisionOffsets::NotNeeded || planeOffset == SubdivisionOffsets::NotNeeded)
     {
-      this->ReadOutside(first, needed, component, values - begin);
+      std::fill_n(values, m_Lanes.End - m_Lanes.Begin, TReal{ 0 });
       return;
     }
-    this->ReadInside(pixels + component, inside, values - begin);
-    this->ReadOutside(first, { needed.Begin, inside.Begin }, component, values - begin);
-    this->ReadOutside(first, { inside.End, needed.End }, component, values - begin);
+    if (rowOffset == SubdivisionOffsets::AskBoundary || planeOffset == SubdivisionOffsets::AskBoundary)
+    {
+      this->ReadOutside(nullptr, m_Lanes, row, plane, values);
+      return;
+    }
+    const ComponentType * const pixels = m_Pixels + rowOffset + planeOffset;
+    this->ReadInside(pixels + m_Inside.Begin * m_Stride, values + (m_Inside.Begin - m_Lanes.Begin));
+    this->ReadOutside(pixels, { m_Lanes.Begin, m_Inside.Begin }, row, plane, values);
+    this->ReadOutside(pixels, { m_Inside.End, m_Lanes.End }, row, plane, values);
   }
 
   /** Asks for the memory of a row that will be read soon. */
   void
-  PrefetchRow(const IndexType & first, const SizeValueType count) const
+  PrefetchRow(const IndexValueType row, const IndexValueType plane) const
   {
-    const IndexValueType begin = first[m_LaneAxis];
-    const Interval       row{ begin, begin + static_cast<IndexValueType>(count) };
-    const Interval       inside = Intersect(Intersect(row, m_NeededLanes), m_ImageLanes);
-    if (const ComponentType * const pixels = this->IsNeeded(first) ? this->FindRow(first) : nullptr)
+    const OffsetValueType rowOffset = m_Axes.HasRows() ? m_RowOffsets[row] : 0;
+    const OffsetValueType planeOffset = m_Axes.HasSweep() ? m_PlaneOffsets[plane] : 0;
+    if (rowOffset < SubdivisionOffsets::AskBoundary && planeOffset < SubdivisionOffsets::AskBoundary)
     {
-      SubdivisionPrefetch(pixels + inside.Begin * m_Stride, pixels + inside.End * m_Stride);
+      const ComponentType * const pixels = m_Pixels + rowOffset + planeOffset;
+      SubdivisionPrefetch(pixels + m_Inside.Begin * m_Stride, pixels + m_Inside.End * m_Stride);
     }
   }
 
 private:
+  /** Maps an index outside [0, size) into it. */
+  using IndexMapType = IndexValueType (*)(IndexValueType index, IndexValueType size);
+
   struct Interval
   {
     IndexValueType Begin;
@@ -109,132 +124,147 @@ private:
   static Interval
   Intersect(const Interval & a, const Interval & b)
   {
-    const IndexValueType begin = std::max(a.Begin, b.Begin);
-    return { begin, std::max(begin, std::min(a.End, b.End)) };
+    return { std::max(a.Begin, b.Begin), std::min(a.End, b.End) };
   }
 
-  Interval
-  LaneInterval(const RegionType & region) const
+  static Interval
+  WithHalo(const RegionType & region, const unsigned int axis, const IndexValueType halo)
   {
-    const IndexValueType begin = region.GetIndex(m_LaneAxis);
-    return { begin, begin + static_cast<IndexValueType>(region.GetSize(m_LaneAxis)) };
+    const IndexValueType begin = region.GetIndex(axis);
+    return { begin - halo, begin + static_cast<IndexValueType>(region.GetSize(axis)) + halo };
   }
 
-  /** Whether any pixel of the row is. */
-  bool
-  IsNeeded(const IndexType & index) const
+  /** What a boundary condition does to an index, if it does nothing but map indices; otherwise null. */
+  static IndexMapType
+  FindIndexMap(const BoundaryConditionType * const boundaryCondition)
   {
-    for (unsigned int axis = 0; axis < Dimension; ++axis)
+    if (dynamic_cast<const ZeroFluxNeumannBoundaryCondition<TImage, TImage> *>(boundaryCondition))
     {
-      const IndexValueType offset = index[axis] - m_Needed.GetIndex(axis);
-      if (axis != m_LaneAxis && (offset < 0 || offset >= static_cast<IndexValueType>(m_Needed.GetSize(axis))))
+      return [](IndexValueType i, IndexValueType size) { return i < 0 ? 0 : std::min(i, size - 1); };
+    }
+    if (dynamic_cast<const MirrorBoundaryCondition<TImage, TImage> *>(boundaryCondition))
+    {
+      return &MirrorIndex;
+    }
+    if (dynamic_cast<const PeriodicBoundaryCondition<TImage, TImage> *>(boundaryCondition))
+    {
+      return [](IndexValueType i, IndexValueType size) { return (i % size + size) % size; };
+    }
+    return nullptr;
+  }
+
+  SubdivisionOffsets
+  FindOffsets(const unsigned int axis, const Interval & range, const RegionType & stencil) const
+  {
+    const Interval        image = WithHalo(m_Image->GetLargestPossibleRegion(), axis, 0);
+    const Interval        needed = WithHalo(stencil, axis, 0);
+    const OffsetValueType stride = m_Components * m_Image->GetOffsetTable()[axis];
+    SubdivisionOffsets    offsets{ range.Begin, {} };
+    for (IndexValueType i = range.Begin; i < range.End; ++i)
+    {
+      if (i < needed.Begin || i >= needed.End)
       {
-        return false;
+        offsets.Values.push_back(SubdivisionOffsets::NotNeeded);
+      }
+      else if (i >= image.Begin && i < image.End)
+      {
+        offsets.Values.push_back(i * stride);
+      }
+      else if (m_MapIndex)
+      {
+        offsets.Values.push_back((image.Begin + m_MapIndex(i - image.Begin, image.End - image.Begin)) * stride);
+      }
+      else
+      {
+        offsets.Values.push_back(SubdivisionOffsets::AskBoundary);
       }
     }
-    return true;
+    return offsets;
   }
 
-  /** An index along an axis, outside the image, as the boundary condition maps it into it. */
-  IndexValueType
-  MapIndex(const IndexValueType i, const unsigned int axis) const
-  {
-    const IndexValueType start = m_Image->GetLargestPossibleRegion().GetIndex(axis);
-    const auto           size = static_cast<IndexValueType>(m_Image->GetLargestPossibleRegion().GetSize(axis));
-    return start + m_MapIndex(i - start, size);
-  }
-
-  /** Where index 0 along the lane axis lies, or would lie, of a row or of the one that it is mapped to; null if it lies
-   * outside the image and is not mapped. */
-  const ComponentType *
-  FindRow(const IndexType & index) const
-  {
-    const RegionType & largest = m_Image->GetLargestPossibleRegion();
-    const RegionType & buffered = m_Image->GetBufferedRegion();
-    OffsetValueType    offset = -buffered.GetIndex(m_LaneAxis) * m_Image->GetOffsetTable()[m_LaneAxis];
-    for (unsigned int axis = 0; axis < Dimension; ++axis)
-    {
-      if (axis == m_LaneAxis)
-      {
-        continue;
-      }
-      IndexValueType       i = index[axis];
-      const IndexValueType start = largest.GetIndex(axis);
-      if (i < start || i >= start + static_cast<IndexValueType>(largest.GetSize(axis)))
-      {
-        if (!m_MapIndex)
-        {
-          return nullptr;
-        }
-        i = this->MapIndex(i, axis);
-      }
-      offset += (i - buffered.GetIndex(axis)) * m_Image->GetOffsetTable()[axis];
-    }
-    return reinterpret_cast<const ComponentType *>(m_Image->GetBufferPointer()) + offset * m_Components;
-  }
-
-  /** Reads pixels of a row by their index along the lane axis. */
   void
-  ReadInside(const ComponentType * const pixels, const Interval & interval, TReal * const values) const
+  ReadInside(const ComponentType * const pixels, TReal * const values) const
   {
+    const IndexValueType count = m_Inside.End - m_Inside.Begin;
     using VectorPixelType = SubdivisionVectorPixelType<ComponentType>;
     if constexpr (std::is_same<TReal, float>::value && !std::is_void<VectorPixelType>::value)
     {
       if (m_Stride == 1)
       {
-        ConvertRow(reinterpret_cast<const VectorPixelType *>(pixels + interval.Begin),
-                   static_cast<std::size_t>(interval.End - interval.Begin),
-                   values + interval.Begin);
+        ConvertRow(reinterpret_cast<const VectorPixelType *>(pixels), static_cast<std::size_t>(count), values);
         return;
       }
     }
-    for (IndexValueType i = interval.Begin; i < interval.End; ++i)
+    for (IndexValueType i = 0; i < count; ++i)
     {
       values[i] = static_cast<TReal>(pixels[i * m_Stride]);
     }
   }
 
-  /** Reads pixels that the boundary condition supplies: maps them, or asks it for each. */
+  /** Reads pixel by pixel what is not needed, what is mapped into the row, whose pixels begin at \c pixels, and what the
+   * boundary condition is to be asked for; without a row, it is asked for all that is needed. */
   void
-  ReadOutside(const IndexType &    first,
-              const Interval &     interval,
-              const unsigned int   component,
-              TReal * const        values) const
+  ReadOutside(const ComponentType * const pixels,
+              const Interval &            interval,
+              const IndexValueType        row,
+              const IndexValueType        plane,
+              TReal * const               values) const
   {
-    if (interval.Begin >= interval.End)
-    {
-      return;
-    }
-    if (m_MapIndex)
-    {
-      const ComponentType * const pixels = this->FindRow(first) + component;
-      for (IndexValueType i = interval.Begin; i < interval.End; ++i)
-      {
-        values[i] = static_cast<TReal>(pixels[this->MapIndex(i, m_LaneAxis) * m_Stride]);
-      }
-      return;
-    }
-    using PixelType = typename TImage::PixelType;
-    IndexType index = first;
     for (IndexValueType i = interval.Begin; i < interval.End; ++i)
     {
-      index[m_LaneAxis] = i;
-      const PixelType pixel = m_BoundaryCondition->GetPixel(index, m_Image);
-      values[i] = static_cast<TReal>(DefaultConvertPixelTraits<PixelType>::GetNthComponent(component, pixel));
+      const OffsetValueType offset = m_LaneOffsets[i];
+      TReal &               value = values[i - m_Lanes.Begin];
+      if (offset == SubdivisionOffsets::NotNeeded)
+      {
+        value = TReal{ 0 };
+      }
+      else if (pixels && offset != SubdivisionOffsets::AskBoundary)
+      {
+        value = static_cast<TReal>(pixels[offset]);
+      }
+      else
+      {
+        value = this->AskBoundaryCondition(i, row, plane);
+      }
     }
+  }
+
+  TReal
+  AskBoundaryCondition(const IndexValueType lane, const IndexValueType row, const IndexValueType plane) const
+  {
+    IndexType index = m_Position;
+    index[m_Axes.GetLanes()] = lane;
+    if (m_Axes.HasRows())
+    {
+      index[m_Axes.GetRows()] = row;
+    }
+    if (m_Axes.HasSweep())
+    {
+      index[m_Axes.GetSweep()] = plane;
+    }
+    using PixelType = typename TImage::PixelType;
+    const PixelType pixel = m_BoundaryCondition->GetPixel(index, m_Image);
+    return static_cast<TReal>(DefaultConvertPixelTraits<PixelType>::GetNthComponent(m_Component, pixel));
   }
 
   const TImage *                m_Image;
   const BoundaryConditionType * m_BoundaryCondition;
-  unsigned int                  m_LaneAxis;
-  RegionType                    m_Needed;
-  Interval                      m_NeededLanes;
-  Interval                      m_ImageLanes;
+  SubdivisionTileAxes           m_Axes;
   OffsetValueType               m_Components;
   OffsetValueType               m_Stride;
+  IndexMapType                  m_MapIndex;
 
-  /** Maps an index into [0, size), for boundary conditions that do nothing but that; null for others. */
-  IndexValueType (*m_MapIndex)(IndexValueType index, IndexValueType size){ nullptr };
+  /** The row with its halo, and the part of it that is needed and inside the image. */
+  Interval m_Lanes;
+  Interval m_Inside;
+
+  SubdivisionOffsets m_LaneOffsets;
+  SubdivisionOffsets m_RowOffsets;
+  SubdivisionOffsets m_PlaneOffsets;
+
+  IndexType             m_Position;
+  unsigned int          m_Component{ 0 };
+  const ComponentType * m_Pixels{ nullptr };
 };
 
 } // namespace itk

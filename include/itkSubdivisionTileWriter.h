@@ -2,8 +2,8 @@
 #ifndef itkSubdivisionTileWriter_h
 #define itkSubdivisionTileWriter_h
 
-#include "itkSubdivisionMasks.h"
 #include "itkSubdivisionPixelTraits.h"
+#include "itkSubdivisionTileAxes.h"
 
 #include <memory>
 
@@ -12,7 +12,7 @@ namespace itk
 
 /** \class SubdivisionTileWriter
  *
- * \brief Scatters rows of children into an image, rounded and clamped as its pixels need it.
+ * \brief Scatters the rows of children of a tile into an image, rounded and clamped as its pixels need it.
  *
  * \ingroup NonOscillatorySubdivision
  */
@@ -27,37 +27,44 @@ public:
 
   /**
    * \param image the image
-   * \param laneAxis the axis that rows run along
+   * \param axes the axes of the tile
    * \param region the pixels that are written; others are left alone
    */
-  SubdivisionTileWriter(TImage * image, const unsigned int laneAxis, const RegionType & region)
+  SubdivisionTileWriter(TImage * image, const SubdivisionTileAxes & axes, const RegionType & region)
     : m_Image(image)
-    , m_LaneAxis(laneAxis)
+    , m_Axes(axes)
     , m_Region(region)
-    , m_Begin(region.GetIndex(laneAxis))
-    , m_End(m_Begin + static_cast<IndexValueType>(region.GetSize(laneAxis)))
     , m_Components(image->GetNumberOfComponentsPerPixel())
-    , m_Stride(m_Components * image->GetOffsetTable()[laneAxis])
+    , m_Stride(m_Components * image->GetOffsetTable()[axes.GetLanes()])
+    , m_Begin(region.GetIndex(axes.GetLanes()))
+    , m_End(m_Begin + static_cast<IndexValueType>(region.GetSize(axes.GetLanes())))
   {}
 
-  /** Writes one component of the children of \c parents voxels, from the index of the first one's lower child on.
-   * Returns how many lie in the region and were written. */
-  SizeValueType
-  WriteChildren(const IndexType &   index,
-                const LanePair &    children,
-                const SizeValueType parents,
-                const unsigned int  component)
+  /** Chooses the position along the axes that are not the tile's, and the component that is written. */
+  void
+  SetImage(const IndexType & position, const unsigned int component)
   {
-    ComponentType * const pixels = this->FindRow(index);
+    m_Pixels = m_Axes.template FindImage<ComponentType>(m_Image, position) + component;
+  }
+
+  /** Writes the children of \c parents voxels that lie in the region; returns how many these are. The indices are those of
+   * the first one's lower child, along the axes that the tile has. */
+  SizeValueType
+  WriteChildren(const IndexValueType lane,
+                const IndexValueType row,
+                const IndexValueType plane,
+                const LanePair &     children,
+                const SizeValueType  parents)
+  {
+    ComponentType * const pixels = this->FindRow(row, plane);
     if (!pixels)
     {
       return 0;
     }
-    const IndexValueType begin = index[m_LaneAxis];
-    const auto           count = static_cast<IndexValueType>(SubdivisionMasks::Children * parents);
-    if (m_Stride == 1 && m_Begin == begin && m_End == begin + count)
+    const auto count = static_cast<IndexValueType>(2 * parents);
+    if (m_Stride == 1 && m_Begin == lane && m_End == lane + count)
     {
-      Interleave(children, parents, pixels + component);
+      Interleave(children, parents, pixels);
     }
     else
     {
@@ -66,51 +73,64 @@ public:
       Interleave(children, parents, m_Row.get());
       for (IndexValueType i = m_Begin; i < m_End; ++i)
       {
-        pixels[(i - m_Begin) * m_Stride + component] = m_Row[i - begin];
+        pixels[(i - m_Begin) * m_Stride] = m_Row[i - lane];
       }
     }
-    return m_Region.GetSize(m_LaneAxis);
+    return static_cast<SizeValueType>(m_End - m_Begin);
+  }
+
+  /** Writes a row of the region as it is; returns the number of pixels. */
+  SizeValueType
+  WriteRow(const TReal * const values) const
+  {
+    ComponentType * const pixels = m_Pixels + m_Begin * m_Stride;
+    for (IndexValueType i = 0; i < m_End - m_Begin; ++i)
+    {
+      pixels[i * m_Stride] = SubdivisionRound<ComponentType>(values[i]);
+    }
+    return static_cast<SizeValueType>(m_End - m_Begin);
   }
 
   /** Asks for the memory of a row that will be written soon. */
   void
-  PrefetchRow(const IndexType & index) const
+  PrefetchRow(const IndexValueType row, const IndexValueType plane) const
   {
-    if (ComponentType * const pixels = this->FindRow(index))
+    if (const ComponentType * const pixels = this->FindRow(row, plane))
     {
       SubdivisionPrefetch(pixels, pixels + (m_End - m_Begin) * m_Stride);
     }
   }
 
-  /** Writes one component of a row of values as they are. */
-  void
-  WriteRow(const IndexType & index, const TReal * values, const SizeValueType count, const unsigned int component) const
+private:
+  bool
+  IsInRegion(const unsigned int axis, const IndexValueType index) const
   {
-    ComponentType * const pixels = this->FindRow(index) + component;
-    for (SizeValueType i = 0; i < count; ++i)
-    {
-      pixels[static_cast<OffsetValueType>(i) * m_Stride] = SubdivisionRound<ComponentType>(values[i]);
-    }
+    const IndexValueType begin = m_Region.GetIndex(axis);
+    return index >= begin && index < begin + static_cast<IndexValueType>(m_Region.GetSize(axis));
   }
 
-private:
-  /** Where the region begins in the row of a pixel; null if the row lies outside it. */
+  /** Where the region begins in a row; null if the row lies outside it. */
   ComponentType *
-  FindRow(const IndexType & index) const
+  FindRow(const IndexValueType row, const IndexValueType plane) const
   {
-    const IndexType & bufferStart = m_Image->GetBufferedRegion().GetIndex();
-    OffsetValueType   offset = 0;
-    for (unsigned int axis = 0; axis < TImage::ImageDimension; ++axis)
+    OffsetValueType offset = m_Begin * m_Stride;
+    if (m_Axes.HasRows())
     {
-      const IndexValueType regionStart = m_Region.GetIndex(axis);
-      const IndexValueType i = axis == m_LaneAxis ? regionStart : index[axis];
-      if (i < regionStart || i >= regionStart + static_cast<IndexValueType>(m_Region.GetSize(axis)))
+      if (!this->IsInRegion(m_Axes.GetRows(), row))
       {
         return nullptr;
       }
-      offset += (i - bufferStart[axis]) * m_Image->GetOffsetTable()[axis];
+      offset += row * m_Image->GetOffsetTable()[m_Axes.GetRows()] * m_Components;
     }
-    return reinterpret_cast<ComponentType *>(m_Image->GetBufferPointer()) + offset * m_Components;
+    if (m_Axes.HasSweep())
+    {
+      if (!this->IsInRegion(m_Axes.GetSweep(), plane))
+      {
+        return nullptr;
+      }
+      offset += plane * m_Image->GetOffsetTable()[m_Axes.GetSweep()] * m_Components;
+    }
+    return m_Pixels + offset;
   }
 
   void
@@ -141,14 +161,19 @@ private:
     }
   }
 
-  TImage *        m_Image;
-  unsigned int    m_LaneAxis;
-  RegionType      m_Region;
-  IndexValueType  m_Begin;
-  IndexValueType  m_End;
-  OffsetValueType m_Components;
-  OffsetValueType m_Stride;
+  TImage *            m_Image;
+  SubdivisionTileAxes m_Axes;
+  RegionType          m_Region;
+  OffsetValueType     m_Components;
+  OffsetValueType     m_Stride;
 
+  /** The region along the lanes. */
+  IndexValueType m_Begin;
+  IndexValueType m_End;
+
+  ComponentType * m_Pixels{ nullptr };
+
+  /** A row before it is cropped or spread. */
   std::unique_ptr<ComponentType[]> m_Row;
   IndexValueType                   m_RowLength{ 0 };
 };

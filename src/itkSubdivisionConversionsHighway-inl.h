@@ -44,7 +44,8 @@ ConvertRow(const TPixel * in, std::size_t count, float * out)
   }
 }
 
-/** Rounds to nearest, ties to even, within the range of the pixel type; NaN becomes 0. */
+/** Lanes whose lowest bits are the pixel: rounded to nearest, ties to even, and saturated; NaN becomes 0. The bits above
+ * are not specified. */
 template <typename TPixel>
 HWY_INLINE hn::Vec<IntegerTag>
 RoundLanes(hn::Vec<FloatTag> value)
@@ -57,7 +58,8 @@ RoundLanes(hn::Vec<FloatTag> value)
   // For unsigned pixels the lower bound turns NaN into 0.
   value = OrderedMax(value, hn::Set(d, static_cast<float>(hwy::LowestValue<TPixel>())));
   value = OrderedMin(value, hn::Set(d, static_cast<float>(hwy::HighestValue<TPixel>())));
-  return hn::NearestInt(value);
+  // Adding this moves the integer to the end of the mantissa.
+  return hn::BitCast(IntegerTag(), hn::Add(value, hn::Set(d, 12582912.0f)));
 }
 
 /** Stores both children of one vector of voxels. */
@@ -66,10 +68,9 @@ HWY_INLINE void
 StoreChildren(hn::Vec<FloatTag> lower, hn::Vec<FloatTag> upper, TPixel * out)
 {
   // A pair of children fills half a lane or a whole one, the lower child first: Highway's targets are little-endian.
-  constexpr int  bits = 8 * sizeof(TPixel);
-  constexpr auto mask = (1 << bits) - 1;
-  const auto     pairs = hn::Or(hn::And(RoundLanes<TPixel>(lower), hn::Set(IntegerTag(), mask)),
-                            hn::ShiftLeft<bits>(RoundLanes<TPixel>(upper)));
+  constexpr int bits = 8 * sizeof(TPixel);
+  const auto    lowerBits = hn::And(RoundLanes<TPixel>(lower), hn::Set(IntegerTag(), (1 << bits) - 1));
+  const auto    pairs = hn::Or(lowerBits, hn::ShiftLeft<bits>(RoundLanes<TPixel>(upper)));
   if constexpr (sizeof(TPixel) == 2)
   {
     hn::StoreU(pairs, IntegerTag(), reinterpret_cast<std::int32_t *>(out));

@@ -13,10 +13,6 @@
 #include <new>
 #include <stdexcept>
 
-#if defined(__unix__) || defined(__APPLE__)
-#  include <unistd.h>
-#endif
-
 namespace itk
 {
 namespace
@@ -104,19 +100,6 @@ private:
 
 /** Vectors reach this many bytes beyond what they are asked for. */
 constexpr std::size_t WidestVector = 64;
-
-std::size_t
-SecondLevelCacheSize()
-{
-#ifdef _SC_LEVEL2_CACHE_SIZE
-  const long size = sysconf(_SC_LEVEL2_CACHE_SIZE);
-  if (size > 0)
-  {
-    return static_cast<std::size_t>(size);
-  }
-#endif
-  return std::size_t{ 512 } << 10;
-}
 
 } // namespace
 
@@ -263,13 +246,10 @@ template <typename TReal>
 void
 SubdivisionKernel<TReal>::GetRecommendedTileSize(unsigned int numberOfAxes, std::size_t & width, std::size_t & height)
 {
-  // About this many values are kept for every voxel of a tile with three axes, the halo counted in; found by
-  // measurement to do as well as smaller and larger tiles.
-  constexpr std::size_t valuesPerVoxel = 110;
-  const std::size_t     voxels = SecondLevelCacheSize() / (valuesPerVoxel * sizeof(TReal));
-  constexpr std::size_t bestWidth = 56;
-  width = numberOfAxes > 2 ? bestWidth : 512;
-  height = numberOfAxes > 2 ? std::min<std::size_t>(std::max<std::size_t>(voxels / bestWidth, 8), 64) : 1;
+  // Found by measurement: rows that are long enough for memory to stream, and enough of them to make up for the halo.
+  // Smaller tiles would fit a cache nearer to the core, but gain less there than they lose to the halo.
+  width = numberOfAxes > 2 ? 256 : 1024;
+  height = numberOfAxes > 2 ? 32 : 1;
 }
 
 template <typename TReal>

@@ -61,8 +61,9 @@ ParseCommandLine(int argc, char * argv[])
                 "Repetitions of the rows that take tens of seconds (B-splines and windowed sinc)")
     ->check(CLI::PositiveNumber)
     ->capture_default_str();
-  app.add_flag(
-    "--sinc", options.WithWindowedSinc, "Also time ResampleImageFilter with windowed sinc: minutes a row at 250 voxels");
+  app.add_flag("--sinc",
+               options.WithWindowedSinc,
+               "Also time ResampleImageFilter with windowed sinc: minutes a row at 250 voxels");
 
   // Google Benchmark would print its own help and end the program.
   for (int i = 1; i < argc; ++i)

@@ -54,8 +54,8 @@ RegisterRow(const BenchmarkRow &     row,
   const std::string name = row.Name + '/' + pixel + '/' + std::to_string(workload.Size) +
                            "/threads:" + std::to_string(workload.Threads) +
                            (memory == OutputMemory::Fresh ? "/fresh" : "/reused");
-  benchmark::RegisterBenchmark(
-    name.c_str(), [=](benchmark::State & state) { MeasureRow(state, row, workload, memory); })
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [=](benchmark::State & state) { MeasureRow(state, row, workload, memory); })
     ->Iterations(GetIterations(row, workload))
     ->Repetitions(row.IsSlow ? options.SlowRepetitions : options.Repetitions)
     ->UseManualTime()
@@ -98,8 +98,8 @@ void
 RegisterMultiplyAddPeak(const MultiplyAddTarget & target, unsigned int threads, int repetitions)
 {
   const std::string name = "MultiplyAddPeak@" + target.Name + "/threads:" + std::to_string(threads);
-  benchmark::RegisterBenchmark(
-    name.c_str(), [=](benchmark::State & state) { MeasureMultiplyAddPeak(state, target, threads); })
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [=](benchmark::State & state) { MeasureMultiplyAddPeak(state, target, threads); })
     ->Iterations(1)
     ->Repetitions(repetitions)
     ->UseManualTime()

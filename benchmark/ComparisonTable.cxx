@@ -99,8 +99,8 @@ void
 ComparisonTable::PrintLine(const Line & line)
 {
   std::ostringstream text;
-  text << std::fixed << std::left << std::setw(36) << line.Filter << std::right << std::setw(12)
-       << std::setprecision(2) << 1e3 * line.Seconds << std::setw(16);
+  text << std::fixed << std::left << std::setw(36) << line.Filter << std::right << std::setw(12) << std::setprecision(2)
+       << 1e3 * line.Seconds << std::setw(16);
   const auto reference = m_ReferenceSeconds.find(line.Workload);
   if (reference == m_ReferenceSeconds.end())
   {

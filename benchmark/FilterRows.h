@@ -19,7 +19,7 @@
 namespace subdivision_benchmark
 {
 
-/** Wraps an ITK filter with its input set. One work unit a thread, so that ITK's pool keeps to the threads asked for. */
+/** Wraps an ITK filter whose input is set. One work unit a thread makes ITK keep to the threads asked for. */
 template <typename TFilter>
 PreparedUpdate
 PrepareFilter(const itk::SmartPointer<TFilter> & filter, const Workload & workload)
@@ -156,17 +156,15 @@ MakeFilterRows(bool withWindowedSinc)
   constexpr double bound = 2 * 2 * 3 + 2 * 8;
   constexpr double nonOscillatory = 100 + 10 * (8 + 8 + 8);
 
-  std::vector<BenchmarkRow> rows{
-    SubdivisionRow<ImageType>("NonOscillatory", Scheme::NonOscillatory, nonOscillatory),
-    SubdivisionRow<ImageType>("Linear", Scheme::Linear, linear),
-    SubdivisionRow<ImageType>("BoundedLinear", Scheme::BoundedLinear, linear + bound),
-    SubdivisionRow<ImageType>("BSpline", Scheme::BSpline, linear),
-    ExpandRow<ImageType, itk::LinearInterpolateImageFunction>("ExpandLinear"),
-    ExpandRow<ImageType, itk::NearestNeighborInterpolateImageFunction>("ExpandNearest"),
-    ResampleLinearRow<ImageType>(),
-    ResampleBSplineRow<ImageType>(3),
-    ResampleBSplineRow<ImageType>(5)
-  };
+  std::vector<BenchmarkRow> rows{ SubdivisionRow<ImageType>("NonOscillatory", Scheme::NonOscillatory, nonOscillatory),
+                                  SubdivisionRow<ImageType>("Linear", Scheme::Linear, linear),
+                                  SubdivisionRow<ImageType>("BoundedLinear", Scheme::BoundedLinear, linear + bound),
+                                  SubdivisionRow<ImageType>("BSpline", Scheme::BSpline, linear),
+                                  ExpandRow<ImageType, itk::LinearInterpolateImageFunction>("ExpandLinear"),
+                                  ExpandRow<ImageType, itk::NearestNeighborInterpolateImageFunction>("ExpandNearest"),
+                                  ResampleLinearRow<ImageType>(),
+                                  ResampleBSplineRow<ImageType>(3),
+                                  ResampleBSplineRow<ImageType>(5) };
   if (withWindowedSinc)
   {
     rows.push_back(ResampleWindowedSincRow<ImageType>());

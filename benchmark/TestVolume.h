@@ -22,7 +22,7 @@ HashedUniform(std::uint64_t counter)
   return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
 }
 
-/** A volume like a CT scan of a foam, in 0 ... 4000: a smooth shading, balls with sharp edges on a lattice, and noise. */
+/** A volume like a CT scan, in 0 ... 4000: a smooth shading, balls with sharp edges on a lattice, and noise. */
 template <typename TPixel>
 typename itk::Image<TPixel, 3>::Pointer
 MakeTestVolume(unsigned int size)

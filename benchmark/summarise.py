@@ -18,15 +18,15 @@ class Row:
 
     def __init__(self):
         self.times = []
-        self.processor_times = []
         self.faults = []
         self.lane_operations = None
 
-    def add(self, run):
-        seconds_a_unit = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}[run["time_unit"]]
-        self.times.append(run["real_time"] * seconds_a_unit)
-        self.processor_times.append(run.get("user_seconds", 0.0) + run.get("system_seconds", 0.0))
-        self.faults.append(run.get("minor_faults", 0.0))
+    def add(self, run, use_processor_time):
+        if use_processor_time:
+            self.times.append(run["user_seconds"] + run["system_seconds"])
+        else:
+            self.times.append(run["real_time"] * {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}[run["time_unit"]])
+        self.faults.append(run["minor_faults"])
         self.lane_operations = run.get("lane_operations")
 
     @property
@@ -34,7 +34,7 @@ class Row:
         return statistics.median(self.times)
 
 
-def read_rows(runs):
+def read_rows(runs, use_processor_time):
     """Sorts runs into {workload: {memory: {filter: Row}}} and the peaks {threads: {target: Row}}."""
     workloads = defaultdict(lambda: defaultdict(lambda: defaultdict(Row)))
     peaks = defaultdict(lambda: defaultdict(Row))
@@ -44,10 +44,10 @@ def read_rows(runs):
             continue
         parts = run["name"].split("/")
         if parts[0].startswith(PEAK):
-            peaks[parts[1]][parts[0][len(PEAK) :]].add(run)
+            peaks[parts[1]][parts[0][len(PEAK) :]].add(run, use_processor_time)
         else:
             name, pixel, size, threads, memory = parts[:5]
-            workloads[pixel, int(size), threads][memory][name].add(run)
+            workloads[pixel, int(size), threads][memory][name].add(run, use_processor_time)
     return workloads, peaks
 
 
@@ -86,9 +86,14 @@ def print_table(header, rows):
     print()
 
 
+def format_threads(threads):
+    count = threads.partition(":")[2]
+    return f"{count} thread" + ("" if count == "1" else "s")
+
+
 def print_workload(workload, memories, peaks, context):
     pixel, size, threads = workload
-    print(f"## {size}³ {pixel}, {threads.replace(':', ' ')}\n")
+    print(f"## {size}³ {pixel}, {format_threads(threads)}\n")
     fresh, reused = memories["fresh"], memories["reused"]
     lines = []
     for name in dict.fromkeys([*fresh, *reused]):
@@ -108,23 +113,33 @@ def print_workload(workload, memories, peaks, context):
                 *floor_and_share(name, old, peaks, context),
             ]
         )
-    header = (
-        "row, fresh ms, reused ms, speed fresh, speed reused, times slower fresh, times slower reused, "
-        "ns a voxel, faults, fresh memory, floor ms, floor / reused"
-    )
-    print_table(header.split(", "), lines)
+    header = [
+        "row",
+        "fresh, ms",
+        "reused, ms",
+        f"× {REFERENCE}, fresh",
+        "reused",
+        f"{SUBJECT} ×, fresh",
+        "reused",
+        "ns a voxel, reused",
+        "page faults, fresh",
+        "fresh memory's share",
+        "floor, ms",
+        "floor / reused",
+    ]
+    print_table(header, lines)
 
 
 def print_spread(workload, memories):
     pixel, size, threads = workload
-    lines = []
-    for memory, rows in memories.items():
-        for name, row in rows.items():
-            times = [f"{1e3 * t:.2f}" for t in (min(row.times), row.time, max(row.times))]
-            processor = f"{1e3 * statistics.median(row.processor_times):.2f}"
-            lines.append([f"{name}, {memory}", str(len(row.times)), *times, processor])
-    print(f"## Spread: {size}³ {pixel}, {threads.replace(':', ' ')}\n")
-    print_table(["row", "repetitions", "least ms", "median ms", "most ms", "processor ms"], lines)
+    lines = [
+        [f"{name}, {memory}", str(len(row.times))]
+        + [f"{1e3 * time:.2f}" for time in (min(row.times), row.time, max(row.times))]
+        for memory, rows in memories.items()
+        for name, row in rows.items()
+    ]
+    print(f"## Spread: {size}³ {pixel}, {format_threads(threads)}\n")
+    print_table(["row", "repetitions", "least, ms", "median, ms", "most, ms"], lines)
 
 
 def print_peaks(peaks):
@@ -140,7 +155,12 @@ def print_peaks(peaks):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("json", help="the file that CompareUpsampling wrote with --benchmark_out")
-    parser.add_argument("--spread", action="store_true", help="print least and most times and processor times, too")
+    parser.add_argument("--spread", action="store_true", help="print the least and the most time of each row, too")
+    parser.add_argument(
+        "--processor-time",
+        action="store_true",
+        help="take the processor time of all threads for the time: less disturbed by other programs, blind to waiting",
+    )
     arguments = parser.parse_args()
     try:
         with open(arguments.json, encoding="utf-8") as file:
@@ -151,14 +171,16 @@ def main():
     context = results["context"]
     for key in ("processor", "kernel_target", "itk", "compiler", "transparent_huge_pages"):
         print(f"- {key.replace('_', ' ')}: {context[key]}")
-    print(f"- load average at the start: {context['load_avg'][0]:.1f}\n")
-    workloads, peaks = read_rows(results["benchmarks"])
+    print(f"- load average at the start: {context['load_avg'][0]:.1f}")
+    print(f"- times: {'processor time of all threads' if arguments.processor_time else 'wall clock'}, medians\n")
+    workloads, peaks = read_rows(results["benchmarks"], arguments.processor_time)
     for workload, memories in workloads.items():
         print_workload(workload, memories, peaks[workload[2]], context)
     if arguments.spread:
         for workload, memories in workloads.items():
             print_spread(workload, memories)
-    print_peaks(peaks)
+    if peaks:
+        print_peaks(peaks)
 
 
 if __name__ == "__main__":

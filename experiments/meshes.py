@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 from skimage.measure import marching_cubes
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
@@ -45,6 +47,14 @@ class Mesh:
         triangles = self.triangles[triangles_kept]
         used, renumbered = np.unique(triangles, return_inverse=True)
         return Mesh(self.points[used], renumbered.reshape(-1, 3))
+
+    def largest_piece(self):
+        """The connected piece with the most triangles."""
+        first, second, third = self.triangles.T
+        links = (np.concatenate([first, second]), np.concatenate([second, third]))
+        count = len(self.points)
+        _, pieces = connected_components(coo_matrix((np.ones(len(links[0]), dtype=bool), links), shape=(count, count)))
+        return self.select(pieces[first] == np.argmax(np.bincount(pieces[first])))
 
     def polydata(self):
         """The same for VTK, whose points are (x, y, z); reversing the corners keeps the outside outside."""

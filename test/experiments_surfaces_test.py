@@ -101,6 +101,15 @@ class Meshes(unittest.TestCase):
         np.testing.assert_array_equal(kept.points, square(0.0).points[[0, 2, 3]])
         np.testing.assert_array_equal(kept.triangles, [[0, 1, 2]])
 
+    def test_largest_piece_has_the_most_triangles(self):
+        strip = meshes.Mesh(square(1.0).points + (0, 5, 0), np.array([(0, 1, 2)]))
+        both = meshes.Mesh(
+            np.concatenate([strip.points, square(0.0).points]),
+            np.concatenate([strip.triangles, square(0).triangles + 4]),
+        )
+        np.testing.assert_array_equal(both.largest_piece().points, square(0.0).points)
+        np.testing.assert_array_equal(both.largest_piece().triangles, square(0.0).triangles)
+
     def test_distance_is_to_the_nearest_triangle_not_to_the_nearest_point(self):
         small = square(0.25, 1.0, (4.0, 4.0))
         of_small, of_large = meshes.point_distances(small, square(0.0, 10.0))
@@ -345,7 +354,7 @@ class Rendering(unittest.TestCase):
         self.assertAlmostEqual(covered, 0.25, delta=0.01)
 
     def test_the_two_triangles_are_where_they_belong(self):
-        """Seen from above, y runs up and x to the right: triangle 0, with a corner at y = 1 and x = 0, is above left."""
+        """Seen from above, y runs up and x to the right: triangle 0 has a corner at y = 1, x = 0."""
         image = self.render([0.0, 1.0]).astype(int)
         quarter = len(image) // 8
         middle = len(image) // 2

@@ -467,11 +467,9 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(Kerne
     }
   };
 
+  // Rows are short: their memory is asked for before they are read or written.
   kernel.StartTile(width, static_cast<std::size_t>(height));
-  for (IndexValueType plane = -planeHalo; plane < depth + planeHalo; ++plane)
-  {
-    // Rows are short: the memory of the next input plane and of the output is asked for while the kernel computes.
-    const IndexValueType complete = plane - planeHalo;
+  const auto advance = [&](const IndexValueType plane) {
     for (IndexValueType row = -rowHalo; row < height + rowHalo; ++row)
     {
       reader.ReadRow(firstRow + row, firstPlane + plane, kernel.GetInputRow(row) - halo);
@@ -480,26 +478,42 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(Kerne
         reader.PrefetchRow(firstRow + row, firstPlane + plane + 1);
       }
     }
-    for (IndexValueType row = 0; row < height && complete >= 0; ++row)
+    return kernel.AdvancePlane();
+  };
+  const auto prefetchChildren = [&](const IndexValueType row, const IndexValueType plane) {
+    forEachChildRow(row, plane, [&](const IndexValueType childRow, const IndexValueType childPlane, int, int) {
+      writer.PrefetchRow(childRow, childPlane);
+    });
+  };
+  const auto writeChildren = [&](const IndexValueType row, const IndexValueType plane, const unsigned int age) {
+    const auto    children = kernel.ComputeChildren(static_cast<std::size_t>(row), age);
+    SizeValueType written = 0;
+    forEachChildRow(row, plane, [&](IndexValueType childRow, IndexValueType childPlane, int rowChild, int planeChild) {
+      written += writer.WriteChildren(firstLane, childRow, childPlane, children.Rows[planeChild][rowChild], width);
+    });
+    report(written);
+  };
+
+  IndexValueType plane = -planeHalo;
+  while (plane < depth + planeHalo)
+  {
+    unsigned int complete = 0;
+    while (complete < KernelType::PlanesPerStep && plane < depth + planeHalo)
     {
-      forEachChildRow(row, complete, [&](const IndexValueType childRow, const IndexValueType childPlane, int, int) {
-        writer.PrefetchRow(childRow, childPlane);
-      });
+      complete += advance(plane) ? 1 : 0;
+      ++plane;
     }
-    if (!kernel.AdvancePlane())
-    {
-      continue;
-    }
+    const IndexValueType firstComplete = plane - planeHalo - static_cast<IndexValueType>(complete);
     for (IndexValueType row = 0; row < height; ++row)
     {
-      const auto    children = kernel.ComputeChildren(static_cast<std::size_t>(row));
-      SizeValueType written = 0;
-      const auto    write = [&](IndexValueType childRow, IndexValueType childPlane, int rowChild, int planeChild) {
-        written +=
-          writer.WriteChildren(firstLane, childRow, childPlane, children.Rows[planeChild][rowChild], width);
-      };
-      forEachChildRow(row, complete, write);
-      report(written);
+      for (unsigned int i = 0; i < complete && row + 1 < height; ++i)
+      {
+        prefetchChildren(row + 1, firstComplete + i);
+      }
+      for (unsigned int i = 0; i < complete; ++i)
+      {
+        writeChildren(row, firstComplete + i, complete - 1 - i);
+      }
     }
   }
 }

@@ -116,9 +116,14 @@ public:
   bool
   AdvancePlane();
 
-  /** Computes the children of one row. They stay valid until the next call of this method. */
+  /** Planes that are best advanced before their children are computed, row by row and for each row the oldest plane
+   * first: they share most of what they read. */
+  static constexpr unsigned int PlanesPerStep = 4;
+
+  /** Computes the children of one row of the plane that was complete \c age planes ago, less than \c PlanesPerStep. They
+   * stay valid until the next call of this method. */
   ChildRows
-  ComputeChildren(std::size_t row);
+  ComputeChildren(std::size_t row, unsigned int age = 0);
 
 private:
   struct Implementation;

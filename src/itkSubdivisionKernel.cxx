@@ -282,10 +282,10 @@ SubdivisionKernel<TReal>::AdvancePlane()
 
 template <typename TReal>
 auto
-SubdivisionKernel<TReal>::ComputeChildren(std::size_t row) -> ChildRows
+SubdivisionKernel<TReal>::ComputeChildren(std::size_t row, unsigned int age) -> ChildRows
 {
   const auto & sweep = m_Implementation->Sweep;
-  m_Implementation->Steps.ComputeChildren(sweep, static_cast<std::ptrdiff_t>(row));
+  m_Implementation->Steps.ComputeChildren(sweep, static_cast<std::ptrdiff_t>(row), static_cast<int>(age));
   ChildRows children{};
   for (int sweepChild = 0; sweepChild < 2; ++sweepChild)
   {

@@ -178,12 +178,13 @@ struct ThresholdedRows
                 Buffers.SecondDifferences[1][0]);
   }
 
-  /** Children across rows of the row four before the newest sums. */
+  /** Children across rows of the row whose stencil the newest sums, those of row \c newest, complete. */
   template <typename TPlanes>
   SUBDIVISION_INLINE void
-  FilterAcrossRows(const std::ptrdiff_t row, const TPlanes & children)
+  FilterAcrossRows(const std::ptrdiff_t newest, const TPlanes & children)
   {
-    for (int lane = 0; lane < SubdivisionMasks::Children; ++lane)
+    const std::ptrdiff_t row = newest - SumReach;
+    for (int lane = 0; lane < SubdivisionMasks::Children && row >= 0; ++lane)
     {
       FilterRow(RowsAround<3>(Buffers.Values[lane], 1, 0),
                 RowsAround<2>(Buffers.SecondDifferences[lane], 0, 0),
@@ -224,9 +225,9 @@ AdvanceFlatFields(SubdivisionSweep<T> & s)
                                    RowsAround<2>(s.Rows.RowAxisSums, 0, 0),
                                    RowsAround<2>(s.Rows.BothAxesSums, 0, 0));
     }
-    if (s.HasRowAxis && r - 4 >= 0)
+    if (s.HasRowAxis)
     {
-      rows.FilterAcrossRows(r - 4, s.FlatChildren);
+      rows.FilterAcrossRows(r, s.FlatChildren);
     }
   }
 }
@@ -319,9 +320,9 @@ AdvanceSteepFields(SubdivisionSweep<T> & s, const bool isWindowComplete)
                                    RowsAround<2>(s.SteepMinima[RowAxis], 0, back),
                                    RowsAround<2>(s.SteepMinima[BothAxesInPlane], 0, back));
     }
-    if (s.HasRowAxis && r - 4 >= 0)
+    if (s.HasRowAxis)
     {
-      rows.FilterAcrossRows(r - 4, s.SteepChildren);
+      rows.FilterAcrossRows(r, s.SteepChildren);
     }
   }
 }
@@ -440,10 +441,15 @@ AdvancePlane(SubdivisionSweep<T> & s)
  * as they are. */
 template <typename T>
 void
-BoundChildren(const SubdivisionSweep<T> & s, const std::ptrdiff_t offset, const int sweepChildren, const int planeChildren)
+BoundChildren(const SubdivisionSweep<T> & s,
+              const std::ptrdiff_t        offset,
+              const int                   age,
+              const int                   sweepChildren,
+              const int                   planeChildren)
 {
-  const auto smallest = RowsAround<1>(s.SmallestNeighbour, s.HasSweepAxis ? 2 : 0, offset);
-  const auto largest = RowsAround<1>(s.LargestNeighbour, s.HasSweepAxis ? 2 : 0, offset);
+  const int  newest = s.HasSweepAxis ? age + 2 : age;
+  const auto smallest = RowsAround<1>(s.SmallestNeighbour, newest, offset);
+  const auto largest = RowsAround<1>(s.LargestNeighbour, newest, offset);
   for (std::ptrdiff_t x = 0; x < s.Width; x += LaneCount<T>())
   {
     auto low = smallest(x, 1);
@@ -465,10 +471,10 @@ BoundChildren(const SubdivisionSweep<T> & s, const std::ptrdiff_t offset, const 
   }
 }
 
-/** The children of one row, of the plane whose stencils are complete. */
+/** The children of one row, of the plane whose stencils were complete \c age planes ago. */
 template <typename T>
 void
-ComputeChildren(const SubdivisionSweep<T> & s, const std::ptrdiff_t row)
+ComputeChildren(const SubdivisionSweep<T> & s, const std::ptrdiff_t row, const int age)
 {
   using Scheme = NonOscillatorySubdivisionImageFilterEnums::Scheme;
   const std::ptrdiff_t offset = row * s.Pitch;
@@ -479,12 +485,12 @@ ComputeChildren(const SubdivisionSweep<T> & s, const std::ptrdiff_t row)
     T * const upper = s.Children[1][child];
     if (!s.HasSweepAxis)
     {
-      CopyRow(s.FlatChildren[child][0] + offset, s.Width, lower);
+      CopyRow(s.FlatChildren[child][age] + offset, s.Width, lower);
     }
     else if (s.Scheme == Scheme::NonOscillatory)
     {
-      FilterRow(RowsAround<3>(s.FlatChildren[child], 0, offset),
-                RowsAround<2>(s.SteepChildren[child], 0, offset),
+      FilterRow(RowsAround<3>(s.FlatChildren[child], age, offset),
+                RowsAround<2>(s.SteepChildren[child], age, offset),
                 BSplineMask,
                 0,
                 s.Width,
@@ -493,7 +499,7 @@ ComputeChildren(const SubdivisionSweep<T> & s, const std::ptrdiff_t row)
     }
     else
     {
-      FilterRow(RowsAround<3>(s.FlatChildren[child], 0, offset),
+      FilterRow(RowsAround<3>(s.FlatChildren[child], age, offset),
                 NoSecondDifferences{},
                 s.Scheme == Scheme::BSpline ? BSplineMask : LinearMask,
                 0,
@@ -504,7 +510,7 @@ ComputeChildren(const SubdivisionSweep<T> & s, const std::ptrdiff_t row)
   }
   if (s.Scheme == Scheme::BoundedLinear)
   {
-    BoundChildren(s, offset, s.HasSweepAxis ? 2 : 1, planeChildren);
+    BoundChildren(s, offset, age, s.HasSweepAxis ? 2 : 1, planeChildren);
   }
 }
 

@@ -2,7 +2,7 @@
 #ifndef itkSubdivisionSweep_h
 #define itkSubdivisionSweep_h
 
-#include "itkNonOscillatorySubdivisionImageFilterEnums.h"
+#include "itkSubdivisionKernel.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -55,11 +55,13 @@ enum SubdivisionAxesInPlane
 template <typename T>
 struct SubdivisionSweep
 {
+  static constexpr int PlanesPerStep = SubdivisionKernel<T>::PlanesPerStep;
   static constexpr int ThresholdedInputs = 5;
-  static constexpr int ValuePlanes = 7;
-  static constexpr int SecondDifferencePlanes = 5;
   static constexpr int WindowPlanes = 5;
-  static constexpr int NeighbourPlanes = 5;
+  // The stencils of the planes of a step.
+  static constexpr int ValuePlanes = 7 + PlanesPerStep - 1;
+  static constexpr int SecondDifferencePlanes = 5 + PlanesPerStep - 1;
+  static constexpr int NeighbourPlanes = 5 + PlanesPerStep - 1;
 
   NonOscillatorySubdivisionImageFilterEnums::Scheme Scheme;
 
@@ -125,7 +127,7 @@ template <typename T>
 struct SubdivisionSweepSteps
 {
   void (*AdvancePlane)(SubdivisionSweep<T> &);
-  void (*ComputeChildren)(const SubdivisionSweep<T> &, std::ptrdiff_t row);
+  void (*ComputeChildren)(const SubdivisionSweep<T> &, std::ptrdiff_t row, int age);
 };
 
 template <typename TPixel>

@@ -159,12 +159,13 @@ def method_text(setting):
     """What was done, in words."""
     return Text(
         f"{setting.scans} synthetic scans of {setting.size}³ voxels of {setting.voxel * MICROMETRES:.0f} µm, each of"
-        f" the specimen in another pose: partial-volume voxels, a Gaussian blur of {specimen.BLUR_VOXELS:g} voxels,"
-        f" white noise of {100 * specimen.NOISE:g} % of the contrast (which gives the original at 50 µm about the"
-        " paper's roundness), 16 bit. The surface is the isosurface half-way between air and metal; planes and cylinders are"
-        " fitted to its points by least squares. Roundness is the largest minus the smallest distance of a cylinder's"
-        " points from its fitted axis; perpendicularity, how far a face leans from rim to rim against the axis of the"
-        " largest step; concentricity, twice the largest distance of another cylinder's axis from it. The exact value"
+        " the specimen in another pose: partial-volume voxels, a Gaussian blur of"
+        f" {specimen.BLUR_VOXELS:g} voxels, white noise of {100 * specimen.NOISE:g} % of the contrast (which gives the"
+        " original at 50 µm about the paper's roundness), 16 bit. The surface is the isosurface half-way between air"
+        " and metal; planes and cylinders are fitted to its points by least squares. Roundness is the largest minus the"
+        " smallest distance of a cylinder's points from its fitted axis; perpendicularity, how far a face leans from"
+        " rim to rim against the axis of the largest step; concentricity, twice the largest distance of another"
+        " cylinder's axis from it. The exact value"
         " of these three is 0."
     )
 

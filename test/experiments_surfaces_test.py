@@ -326,6 +326,7 @@ class Surfaces(unittest.TestCase):
     def test_a_pit_that_is_gone_is_not_called_visible(self):
         _, measured = surfaces.measure(self.case)
         gone = {name: [0.0] * len(surfaces.PIT_RADII) for name in measured}
+        gone["original"] = list(surfaces.PIT_RADII)
         visible = next(iter(surfaces.findings({"ball": measured}, {"ball": gone})))
         self.assertIsInstance(visible, Finding)
         self.assertFalse(visible.holds)

@@ -49,6 +49,7 @@ _METRICS = (
     ("test_minimum", "minimum", 1.0, ".5g"),
     ("test_maximum", "maximum", 1.0, ".5g"),
 )
+METRIC_NAMES = {key: heading.split(" / ")[0] for key, heading, _, _ in _METRICS}
 METRIC_COLUMNS = [(heading, form) for _, heading, _, form in _METRICS]
 METRICS_TEXT = (
     "PSNR's peak is the reference's range; a voxel's error is relative to that peak; "

@@ -198,6 +198,8 @@ class Specimen(unittest.TestCase):
             np.testing.assert_allclose(distance(self.exact_points()), 0.0, atol=1e-9)
             # Inside a wall and inside the bore, above the top, and in the metal between two steps' solids.
             by_hand = {(0.0, 1.7, 0.0): -16.0, (0.0, 0.0, 0.3): 12.0, (3.5, 1.0, 0.0): 10.0, (1.0, 0.0, 1.5): -8.0}
+            # At the bore's open end, and where its two wider steps meet.
+            by_hand |= {(-3.0, 0.0, 0.4): 16.0, (-1.1, 0.3, 0.0): 12.0}
             for local, expected in by_hand.items():
                 self.assertAlmostEqual(float(distance(np.array([local]))[0]), expected, places=9)
 

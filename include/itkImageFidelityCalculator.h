@@ -29,8 +29,9 @@ namespace itk
  * - relative total variation, a fraction: that of the test image divided by that of the reference;
  * - minimum and maximum of each image.
  *
- * All is computed in double; 64-bit integers beyond 2^53 are rounded to it first. Divisions by zero follow IEEE 754:
- * the relative L2 error of a reference of zeros and the relative total variation of a constant one are infinite or NaN.
+ * All is computed in double; 64-bit integers beyond 2^53 are rounded to it first. Divisions by zero and overflow
+ * follow IEEE 754: the relative L2 error of a reference of zeros and the relative total variation of a constant one are
+ * infinite or NaN.
  *
  * A voxel is excluded where either image is not finite. It takes no part in any of the figures above, and a difference
  * from or to it counts as zero in both images. GetNumberOfExcludedVoxels() says how many there are.

@@ -2,11 +2,9 @@
 
 #include "itkImageFidelityCalculator.h"
 #include "ImageFidelityDefinitions.h"
+#include "ImageFidelityPipelines.h"
 
-#include "itkCastImageFilter.h"
 #include "itkImageRegionIterator.h"
-#include "itkImageSource.h"
-#include "itkPipelineMonitorImageFilter.h"
 
 #include <gtest/gtest.h>
 
@@ -17,6 +15,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace
@@ -157,30 +156,6 @@ ExpectDefinitions(const itk::SmartPointer<TReference> & reference,
   }
 }
 
-/** Casts both images to double; the filters in between hold no more of them than was asked for. */
-template <typename TImage>
-struct StreamingPipeline
-{
-  using RealType = itk::Image<double, TImage::ImageDimension>;
-  using CastType = itk::CastImageFilter<TImage, RealType>;
-  using MonitorType = itk::PipelineMonitorImageFilter<RealType>;
-  using CalculatorType = itk::ImageFidelityCalculator<RealType>;
-
-  typename CastType::Pointer       castReference{ CastType::New() };
-  typename CastType::Pointer       castTest{ CastType::New() };
-  typename MonitorType::Pointer    monitor{ MonitorType::New() };
-  typename CalculatorType::Pointer calculator{ CalculatorType::New() };
-
-  StreamingPipeline(const TImage * reference, const TImage * test)
-  {
-    castReference->SetInput(reference);
-    castTest->SetInput(test);
-    monitor->SetInput(castTest->GetOutput());
-    calculator->SetReferenceImage(castReference->GetOutput());
-    calculator->SetTestImage(monitor->GetOutput());
-  }
-};
-
 std::vector<double>
 FindQuantiles(const std::vector<double> & values, const std::vector<double> & levels)
 {
@@ -197,35 +172,6 @@ FindQuantiles(const std::vector<double> & values, const std::vector<double> & le
   }
   return quantiles.GetQuantiles();
 }
-
-/** Fails in the pipeline until it is told not to. */
-class UnreliableSource : public itk::ImageSource<itk::Image<double, 2>>
-{
-public:
-  using Self = UnreliableSource;
-  using Pointer = itk::SmartPointer<Self>;
-  itkNewMacro(Self);
-
-  bool fails{ true };
-
-protected:
-  void
-  GenerateOutputInformation() override
-  {
-    this->GetOutput()->SetLargestPossibleRegion(itk::ImageRegion<2>(itk::Size<2>{ { 2, 2 } }));
-  }
-
-  void
-  GenerateData() override
-  {
-    if (fails)
-    {
-      itkExceptionMacro("The source failed.");
-    }
-    this->AllocateOutputs();
-    this->GetOutput()->FillBuffer(1.0);
-  }
-};
 } // namespace
 
 TEST(RadixQuantiles, AgreeWithSortingForRandomValuesOfAllMagnitudes)
@@ -420,6 +366,23 @@ TEST(ImageFidelityCalculator, IsTheSameToTheByteForAnyNumberOfThreadsAndPieces)
         << numberOfPieces << " pieces, " << numberOfWorkUnits << " work units";
     }
   }
+}
+
+TEST(ImageFidelityCalculator, NeverCutsRows)
+{
+  const auto expectSame = [](const auto & image, unsigned int numberOfUpdates) {
+    using ImageType = std::decay_t<decltype(*image)>;
+    const StreamingPipeline<ImageType> pipeline(image, image);
+    pipeline.calculator->SetNumberOfStreamDivisions(3);
+    pipeline.calculator->Update();
+    EXPECT_EQ(pipeline.monitor->GetNumberOfUpdates(), numberOfUpdates);
+    EXPECT_TRUE(HaveSameBytes(GetFigures(pipeline.calculator), GetFigures(Compare(image, image))));
+  };
+  using Image1D = itk::Image<float, 1>;
+  using Image2D = itk::Image<float, 2>;
+  expectSame(MakeRandomImage<Image1D>(Image1D::RegionType({ { 3 } }, { { 99 } }), 12, 1.0), 1);
+  expectSame(MakeRandomImage<Image2D>(Image2D::RegionType({ { 3, 4 } }, { { 30, 9 } }), 13, 1.0),
+             3 * itk::RadixQuantiles::NumberOfPasses);
 }
 
 TEST(ImageFidelityCalculator, AsksForOnePieceAndOneMoreSliceAtATime)

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs, on Debian 12, the packages that the given purposes need and this machine lacks:
-#   install_packages.sh build|sample|test|benchmark|experiments|format...
+#   install_packages.sh build|sample|test|benchmark|experiments ...
 # What each purpose needs stands here and nowhere else, but for the experiments, which bring their own list.
 set -euo pipefail
 repository=$(cd "$(dirname "$0")/.." && pwd)

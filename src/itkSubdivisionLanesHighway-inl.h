@@ -31,6 +31,18 @@ Load(const T * p)
   return hn::LoadU(Tag<T>(), p);
 }
 
+/** A value that is used more than once. Without this, GCC loads it once more for every use, and loads are what the
+ * filters along the lanes wait for. */
+template <typename TVector>
+HWY_INLINE TVector
+Hold(TVector v)
+{
+#if HWY_COMPILER_GCC && HWY_ARCH_X86
+  asm("" : "+v"(v.raw));
+#endif
+  return v;
+}
+
 template <typename TVector, typename T>
 HWY_INLINE void
 Store(TVector v, T * p)

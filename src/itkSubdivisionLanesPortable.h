@@ -35,6 +35,13 @@ Load(const T * p)
 }
 
 template <typename T>
+inline T
+Hold(T v)
+{
+  return v;
+}
+
+template <typename T>
 inline void
 Store(T v, T * p)
 {

@@ -65,9 +65,9 @@ SumDifferencesOfRow(const T * const                                 row,
 
   for (std::ptrdiff_t x = -SumReach; x < width + SumReach; x += LaneCount<T>())
   {
-    const auto before = Load(row + x - 1);
-    const auto value = Load(row + x);
-    const auto after = Load(row + x + 1);
+    const auto before = Hold(Load(row + x - 1));
+    const auto value = Hold(Load(row + x));
+    const auto after = Hold(Load(row + x + 1));
     store(Add(Abs(Sub(value, before)), Abs(Sub(after, value))), LaneAxis, x);
     if constexpr (VSteep)
     {
@@ -254,7 +254,6 @@ SUBDIVISION_INLINE void
 AdvanceSteepMinima(SubdivisionSweep<T> & s, const ThresholdedRows<T> & rows, const std::ptrdiff_t r)
 {
   const std::ptrdiff_t here = r * s.Pitch;
-  CopyRow(s.Rows.Sums[NoAxisInPlane] + rows.Begin, rows.End - rows.Begin, s.SteepMinima[NoAxisInPlane][0] + here + rows.Begin);
   WindowMinimumRow(
     AlongLanes<T>{ s.Rows.Sums[LaneAxis] }, rows.Begin, rows.End, s.SteepMinima[LaneAxis][0] + here);
   if (s.HasRowAxis && r - 2 >= -SecondDifferenceReach)
@@ -284,12 +283,15 @@ AdvanceSteepFields(SubdivisionSweep<T> & s, const bool isWindowComplete)
     // Only for the differences towards the first row.
     AdvanceSlope(s, rows.FirstRow() - 1);
     AdvanceSlope(s, rows.FirstRow());
+    buffers.Sums[NoAxisInPlane] = buffers.Limited[NoAxisInPlane];
     rows.template SumRow<true>(buffers.Slope[1], buffers.Slope[0], (rows.FirstRow() - 1) * s.Pitch);
   }
   for (std::ptrdiff_t r = rows.FirstRow(); r < rows.EndRow(); ++r)
   {
     const std::ptrdiff_t here = r * s.Pitch;
     AdvanceSlope(s, s.HasRowAxis ? r + 1 : r);
+    // The sums of the slopes themselves have no window within the plane.
+    buffers.Sums[NoAxisInPlane] = s.SteepMinima[NoAxisInPlane][0] + here;
     rows.template SumRow<true>(buffers.Slope[s.HasRowAxis ? 1 : 0], buffers.Slope[0], here);
     AdvanceSteepMinima(s, rows, r);
     if (!isWindowComplete)

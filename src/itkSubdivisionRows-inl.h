@@ -99,10 +99,10 @@ FilterRow(const TValues            values,
 
   for (std::ptrdiff_t x = begin; x < end; x += LaneCount<T>())
   {
-    const auto before2 = values(x, -2);
-    const auto before1 = values(x, -1);
-    const auto after1 = values(x, 1);
-    const auto after2 = values(x, 2);
+    const auto before2 = Hold(values(x, -2));
+    const auto before1 = Hold(values(x, -1));
+    const auto after1 = Hold(values(x, 1));
+    const auto after2 = Hold(values(x, 2));
     auto       even = Mul(pair2, Add(after2, before2));
     auto       odd = Mul(odd2, Sub(after2, before2));
     even = MulAdd(pair1, Add(after1, before1), even);
@@ -110,8 +110,8 @@ FilterRow(const TValues            values,
     even = MulAdd(centre, values(x, 0), even);
     if constexpr (!std::is_same<TSecondDifferences, NoSecondDifferences>::value)
     {
-      const auto curvedBefore = secondDifferences(x, -1);
-      const auto curvedAfter = secondDifferences(x, 1);
+      const auto curvedBefore = Hold(secondDifferences(x, -1));
+      const auto curvedAfter = Hold(secondDifferences(x, 1));
       even = MulAdd(curvedPair, Add(curvedAfter, curvedBefore), even);
       odd = MulAdd(curvedOdd, Sub(curvedAfter, curvedBefore), odd);
       even = MulAdd(curvedCentre, secondDifferences(x, 0), even);

@@ -10,9 +10,9 @@
 namespace itk
 {
 
-/** Advises the system to back memory that was not touched yet with huge pages, where it offers them and where the memory
- * is large enough to gain from them; does nothing elsewhere. A large output costs more for its first touch, page by
- * page, than for its arithmetic. */
+/** Advises the system to back memory that was not touched yet with huge pages, where it offers them and where the
+ * memory is large enough to gain from them; does nothing elsewhere. A large output costs more for its first touch, page
+ * by page, than for its arithmetic. */
 NonOscillatorySubdivision_EXPORT void
 AdviseHugePages(void * memory, std::size_t bytes);
 

@@ -51,8 +51,8 @@ namespace itk
  * Where the input has a pixel that is not finite, exactly the children whose six-point stencil reads it are not finite;
  * those that only depend on it through a limit are finite.
  *
- * The result depends on the input and the options alone, never on the number of threads, the region asked for or how the
- * image was streamed. The filter streams: it requests the exact stencil of what it is asked for, as the boundary
+ * The result depends on the input and the options alone, never on the number of threads, the region asked for or how
+ * the image was streamed. The filter streams: it requests the exact stencil of what it is asked for, as the boundary
  * condition needs it.
  *
  * \throw itk::ExceptionObject on update, when an option is out of its range (see its setter), the input is missing or
@@ -106,8 +106,8 @@ public:
   itkGetConstMacro(Tension, double);
   /** @} */
 
-  /** What supplies the pixels outside the image. The filter does not own it: it must live as long as the filter uses it,
-   * and a change of it is seen only after Modified(). Default: zero flux, the nearest pixel.
+  /** What supplies the pixels outside the image. The filter does not own it: it must live as long as the filter uses
+   * it, and a change of it is seen only after Modified(). Default: zero flux, the nearest pixel.
    * @{ */
   itkSetMacro(BoundaryCondition, BoundaryConditionPointerType);
   itkGetConstMacro(BoundaryCondition, BoundaryConditionPointerType);

@@ -100,10 +100,10 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GenerateOutputI
 {
   Superclass::GenerateOutputInformation();
 
-  const InputImageType * const input = this->GetInput();
-  OutputImageType * const      output = this->GetOutput();
-  OutputRegionType             region = input->GetLargestPossibleRegion();
-  auto                         spacing = input->GetSpacing();
+  const InputImageType * const       input = this->GetInput();
+  OutputImageType * const            output = this->GetOutput();
+  OutputRegionType                   region = input->GetLargestPossibleRegion();
+  auto                               spacing = input->GetSpacing();
   ContinuousIndex<double, Dimension> origin;
   origin.Fill(0.0);
   for (const unsigned int axis : this->GetAxes())
@@ -308,7 +308,8 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GenerateData()
   };
 
   // Work units take tiles as they get done with others: all threads stay busy, and the calling one, the only one that
-  // may tell observers, reports progress to the end. Not every version of every threader passes on what a thread throws.
+  // may tell observers, reports progress to the end. Not every version of every threader passes on what a thread
+  // throws.
   const SizeValueType        numberOfTiles = InputRegionType(tiles).GetNumberOfPixels();
   std::atomic<SizeValueType> nextTile{ 0 };
   std::exception_ptr         firstException;
@@ -330,7 +331,8 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GenerateData()
   MultiThreaderBase * const threader = this->GetMultiThreader();
   threader->SetNumberOfWorkUnits(this->GetNumberOfWorkUnits());
   threader->SetUpdateProgress(false);
-  threader->ParallelizeArray(0, std::min<SizeValueType>(this->GetNumberOfWorkUnits(), numberOfTiles), computeTiles, nullptr);
+  threader->ParallelizeArray(
+    0, std::min<SizeValueType>(this->GetNumberOfWorkUnits(), numberOfTiles), computeTiles, nullptr);
   m_IdleKernels.clear();
   if (firstException)
   {
@@ -384,8 +386,8 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::DynamicThreaded
   const bool                isSubdivided = axes.GetNumber() > 0;
   const InputRegionType     parents = this->ComputeParents(outputRegion);
   const IndexValueType      halo = isSubdivided ? KernelType::GetRadius(m_Scheme) : 0;
-  ReaderType reader(this->GetInput(), m_BoundaryCondition, axes, parents, halo, this->ComputeStencil(outputRegion));
-  WriterType writer(output, axes, outputRegion);
+  ReaderType    reader(this->GetInput(), m_BoundaryCondition, axes, parents, halo, this->ComputeStencil(outputRegion));
+  WriterType    writer(output, axes, outputRegion);
   KernelPointer kernel = isSubdivided ? this->BorrowKernel() : nullptr;
 
   // Every position along the axes that are not the tile's, and every component, is an image of its own.

@@ -17,7 +17,7 @@ namespace itk
 /** Instruction sets that the kernel was built for and that this processor has, the fastest first. The last one is
  * always "portable". */
 NonOscillatorySubdivision_EXPORT std::vector<std::string>
-GetSubdivisionTargets();
+                                 GetSubdivisionTargets();
 
 /** Makes kernels that are constructed from now on use one of GetSubdivisionTargets(); the empty name, the default,
  * stands for the fastest. For tests and benchmarks: results of two targets may differ in the last place.
@@ -27,7 +27,7 @@ SetSubdivisionTarget(const std::string & name);
 
 /** The name of the target that kernels constructed now use. */
 NonOscillatorySubdivision_EXPORT std::string
-GetSubdivisionTarget();
+                                 GetSubdivisionTarget();
 
 /** \class SubdivisionKernel
  *
@@ -120,8 +120,8 @@ public:
    * first: they share most of what they read. */
   static constexpr unsigned int PlanesPerStep = 4;
 
-  /** Computes the children of one row of the plane that was complete \c age planes ago, less than \c PlanesPerStep. They
-   * stay valid until the next call of this method. */
+  /** Computes the children of one row of the plane that was complete \c age planes ago, less than \c PlanesPerStep.
+   * They stay valid until the next call of this method. */
   ChildRows
   ComputeChildren(std::size_t row, unsigned int age = 0);
 
@@ -135,9 +135,9 @@ private:
  * \c ConvertRow widens \c count pixels. \c InterleaveChildren writes 2 \c count pixels, lower, upper, lower, ...;
  * integers are rounded to nearest, ties to even, and saturate, and NaN becomes 0.
  * @{ */
-#define itkDeclareSubdivisionConversions(TPixel)                                                  \
+#define itkDeclareSubdivisionConversions(TPixel)                                                       \
   NonOscillatorySubdivision_EXPORT void ConvertRow(const TPixel * in, std::size_t count, float * out); \
-  NonOscillatorySubdivision_EXPORT void InterleaveChildren(                                       \
+  NonOscillatorySubdivision_EXPORT void InterleaveChildren(                                            \
     const float * lower, const float * upper, std::size_t count, TPixel * out)
 itkDeclareSubdivisionConversions(std::uint8_t);
 itkDeclareSubdivisionConversions(std::int8_t);

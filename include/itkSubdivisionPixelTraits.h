@@ -19,17 +19,16 @@ using SubdivisionComponentType = typename NumericTraits<typename TImage::PixelTy
 
 /** Whether a component needs double: 16 bits and less are exact in float. */
 template <typename TComponent>
-constexpr bool SubdivisionNeedsDouble = std::is_same<TComponent, double>::value ||
-                                        std::is_same<TComponent, long double>::value ||
-                                        (std::is_integral<TComponent>::value && sizeof(TComponent) > 2);
+constexpr bool SubdivisionNeedsDouble =
+  std::is_same<TComponent, double>::value || std::is_same<TComponent, long double>::value ||
+  (std::is_integral<TComponent>::value && sizeof(TComponent) > 2);
 
 /** The type of the computation from one image to another. */
 template <typename TInputImage, typename TOutputImage>
-using SubdivisionRealType =
-  typename std::conditional<SubdivisionNeedsDouble<SubdivisionComponentType<TInputImage>> ||
-                              SubdivisionNeedsDouble<SubdivisionComponentType<TOutputImage>>,
-                            double,
-                            float>::type;
+using SubdivisionRealType = typename std::conditional<SubdivisionNeedsDouble<SubdivisionComponentType<TInputImage>> ||
+                                                        SubdivisionNeedsDouble<SubdivisionComponentType<TOutputImage>>,
+                                                      double,
+                                                      float>::type;
 
 /** The type of the same size that the kernel converts in vector code, or void. */
 template <typename TComponent>
@@ -62,8 +61,8 @@ SubdivisionPrefetch(const T * const begin, const T * const end)
 #endif
 }
 
-/** A real value as a component of a pixel: integers round to nearest, ties to even, and saturate, and NaN becomes 0; real
- * values are passed on. */
+/** A real value as a component of a pixel: integers round to nearest, ties to even, and saturate, and NaN becomes 0;
+ * real values are passed on. */
 template <typename TComponent, typename TReal>
 inline TComponent
 SubdivisionRound(const TReal value)

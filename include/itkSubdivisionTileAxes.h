@@ -21,7 +21,8 @@ namespace itk
 class SubdivisionTileAxes
 {
 public:
-  /** \param subdivided the subdivided axes, in order; three at most. Without any, tiles are rows along the first axis. */
+  /** \param subdivided the subdivided axes, in order; three at most. Without any, tiles are rows along the first axis.
+   */
   explicit SubdivisionTileAxes(const std::vector<unsigned int> & subdivided)
     : m_Number(static_cast<unsigned int>(subdivided.size()))
     , m_Lanes(subdivided.empty() ? 0 : subdivided.front())
@@ -75,8 +76,8 @@ public:
     return axis == m_Lanes || axis == m_Rows || axis == m_Sweep;
   }
 
-  /** The first component of the pixel at \c position along the axes that are not those of the tiles, and at index 0, which
-   * the buffer need not have, along those that are. */
+  /** The first component of the pixel at \c position along the axes that are not those of the tiles, and at index 0,
+   * which the buffer need not have, along those that are. */
   template <typename TComponent, typename TImage>
   TComponent *
   FindImage(TImage * const image, const typename TImage::IndexType & position) const

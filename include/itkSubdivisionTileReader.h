@@ -201,8 +201,8 @@ private:
     }
   }
 
-  /** Reads pixel by pixel what is not needed, what is mapped into the row, whose pixels begin at \c pixels, and what the
-   * boundary condition is to be asked for; without a row, it is asked for all that is needed. */
+  /** Reads pixel by pixel what is not needed, what is mapped into the row, whose pixels begin at \c pixels, and what
+   * the boundary condition is to be asked for; without a row, it is asked for all that is needed. */
   void
   ReadOutside(const ComponentType * const pixels,
               const Interval &            interval,

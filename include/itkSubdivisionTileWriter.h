@@ -47,8 +47,8 @@ public:
     m_Pixels = m_Axes.template FindImage<ComponentType>(m_Image, position) + component;
   }
 
-  /** Writes the children of \c parents voxels that lie in the region; returns how many these are. The indices are those of
-   * the first one's lower child, along the axes that the tile has. */
+  /** Writes the children of \c parents voxels that lie in the region; returns how many these are. The indices are those
+   * of the first one's lower child, along the axes that the tile has. */
   SizeValueType
   WriteChildren(const IndexValueType lane,
                 const IndexValueType row,

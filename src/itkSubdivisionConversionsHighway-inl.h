@@ -17,13 +17,13 @@ using PixelTag = hn::Rebind<TPixel, FloatTag>;
 
 template <typename TPixel>
 HWY_INLINE hn::Vec<FloatTag>
-ConvertLanes(const TPixel * in)
+           ConvertLanes(const TPixel * in)
 {
   return hn::ConvertTo(FloatTag(), hn::PromoteTo(IntegerTag(), hn::LoadU(PixelTag<TPixel>(), in)));
 }
 
 HWY_INLINE hn::Vec<FloatTag>
-ConvertLanes(const float * in)
+           ConvertLanes(const float * in)
 {
   return hn::LoadU(FloatTag(), in);
 }
@@ -44,11 +44,11 @@ ConvertRow(const TPixel * in, std::size_t count, float * out)
   }
 }
 
-/** Lanes whose lowest bits are the pixel: rounded to nearest, ties to even, and saturated; NaN becomes 0. The bits above
- * are not specified. */
+/** Lanes whose lowest bits are the pixel: rounded to nearest, ties to even, and saturated; NaN becomes 0. The bits
+ * above are not specified. */
 template <typename TPixel>
 HWY_INLINE hn::Vec<IntegerTag>
-RoundLanes(hn::Vec<FloatTag> value)
+           RoundLanes(hn::Vec<FloatTag> value)
 {
   constexpr FloatTag d;
   if (std::is_signed<TPixel>::value)

@@ -168,8 +168,8 @@ struct SubdivisionKernel<TReal>::Implementation
     constexpr std::size_t line = CacheLine / sizeof(TReal);
     constexpr std::size_t halo = (SubdivisionMasks::ThresholdedRadius + line) / line * line;
     constexpr std::size_t overrun = WidestVector / sizeof(TReal);
-    const std::size_t     rowLength = (halo + width + SubdivisionMasks::ThresholdedRadius + overrun + line) / line * line;
-    const std::size_t     rowHalo = Sweep.HasRowAxis ? SubdivisionMasks::ThresholdedRadius : 0;
+    const std::size_t rowLength = (halo + width + SubdivisionMasks::ThresholdedRadius + overrun + line) / line * line;
+    const std::size_t rowHalo = Sweep.HasRowAxis ? SubdivisionMasks::ThresholdedRadius : 0;
     Sweep.Pitch = static_cast<std::ptrdiff_t>(rowLength);
 
     const auto row = [&] { return Memory.Take(rowLength) + halo; };
@@ -302,19 +302,14 @@ SubdivisionKernel<TReal>::ComputeChildren(std::size_t row, unsigned int age) -> 
 template class SubdivisionKernel<float>;
 template class SubdivisionKernel<double>;
 
-#define itkDefineSubdivisionConversions(TPixel, Name)                                              \
-  void ConvertRow(const TPixel * in, std::size_t count, float * out)                               \
-  {                                                                                                \
-    Target().Name.ConvertRow(in, count, out);                                                      \
-  }                                                                                                \
-  void InterleaveChildren(const float * lower, const float * upper, std::size_t count, TPixel * out) \
-  {                                                                                                \
-    Target().Name.InterleaveChildren(lower, upper, count, out);                                    \
+#define itkDefineSubdivisionConversions(TPixel, Name)                                                              \
+  void ConvertRow(const TPixel * in, std::size_t count, float * out) { Target().Name.ConvertRow(in, count, out); } \
+  void InterleaveChildren(const float * lower, const float * upper, std::size_t count, TPixel * out)               \
+  {                                                                                                                \
+    Target().Name.InterleaveChildren(lower, upper, count, out);                                                    \
   }
-itkDefineSubdivisionConversions(std::uint8_t, UInt8)
-itkDefineSubdivisionConversions(std::int8_t, Int8)
-itkDefineSubdivisionConversions(std::uint16_t, UInt16)
-itkDefineSubdivisionConversions(std::int16_t, Int16)
-itkDefineSubdivisionConversions(float, Real)
+itkDefineSubdivisionConversions(std::uint8_t, UInt8) itkDefineSubdivisionConversions(std::int8_t, Int8)
+  itkDefineSubdivisionConversions(std::uint16_t, UInt16) itkDefineSubdivisionConversions(std::int16_t, Int16)
+    itkDefineSubdivisionConversions(float, Real)
 
 } // namespace itk

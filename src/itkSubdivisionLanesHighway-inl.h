@@ -19,14 +19,14 @@ using Vector = hn::Vec<Tag<T>>;
 
 template <typename T>
 HWY_INLINE std::ptrdiff_t
-LaneCount()
+           LaneCount()
 {
   return static_cast<std::ptrdiff_t>(hn::Lanes(Tag<T>()));
 }
 
 template <typename T>
 HWY_INLINE Vector<T>
-Load(const T * p)
+           Load(const T * p)
 {
   return hn::LoadU(Tag<T>(), p);
 }
@@ -52,7 +52,7 @@ Store(TVector v, T * p)
 
 template <typename T>
 HWY_INLINE Vector<T>
-Broadcast(double value)
+           Broadcast(double value)
 {
   return hn::Set(Tag<T>(), static_cast<T>(value));
 }

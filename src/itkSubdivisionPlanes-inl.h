@@ -19,7 +19,7 @@ constexpr std::ptrdiff_t SumReach = SecondDifferenceReach + SubdivisionMasks::Wi
 /** Rows of a plane ring, or entries of a row ring, around the one of age VRadius + newest. */
 template <int VRadius, typename T, int VLength>
 SUBDIVISION_INLINE AcrossRows<T, VRadius>
-RowsAround(const SubdivisionRing<T, VLength> & ring, const int newest, const std::ptrdiff_t offset)
+                   RowsAround(const SubdivisionRing<T, VLength> & ring, const int newest, const std::ptrdiff_t offset)
 {
   AcrossRows<T, VRadius> rows;
   for (int i = 0; i <= 2 * VRadius; ++i)
@@ -32,7 +32,7 @@ RowsAround(const SubdivisionRing<T, VLength> & ring, const int newest, const std
 /** Three consecutive rows of a plane. */
 template <typename T>
 SUBDIVISION_INLINE AcrossRows<T, 1>
-RowsOfPlane(const T * const row, const std::ptrdiff_t pitch)
+                   RowsOfPlane(const T * const row, const std::ptrdiff_t pitch)
 {
   return AcrossRows<T, 1>{ { row + pitch, row, row - pitch } };
 }
@@ -43,12 +43,12 @@ RowsOfPlane(const T * const row, const std::ptrdiff_t pitch)
  * to those of the same row of the slopes before, which \c previous holds and is given the new ones. */
 template <bool VSteep, bool VRowAxis, typename T>
 SUBDIVISION_INLINE void
-SumDifferencesOfRow(const T * const                                 row,
-                    const T * const                                 nextRow,
+SumDifferencesOfRow(const T * const                                  row,
+                    const T * const                                  nextRow,
                     const typename SubdivisionSweep<T>::RowBuffers & rows,
-                    T * const *                                     previous,
-                    const std::ptrdiff_t                            offset,
-                    const std::ptrdiff_t                            width)
+                    T * const *                                      previous,
+                    const std::ptrdiff_t                             offset,
+                    const std::ptrdiff_t                             width)
 {
   const auto store = [&](const auto sum, const int subset, const std::ptrdiff_t x) SUBDIVISION_ATTRIBUTE {
     if constexpr (VSteep)
@@ -88,8 +88,8 @@ SumDifferencesOfRow(const T * const                                 row,
   }
 }
 
-/** What the sweeps through the rows of a plane have in common, for the flat and for the steep fields: children along the
- * lanes as soon as the fields of a row are there, children across rows as soon as the rows around them are. */
+/** What the sweeps through the rows of a plane have in common, for the flat and for the steep fields: children along
+ * the lanes as soon as the fields of a row are there, children across rows as soon as the rows around them are. */
 template <typename T>
 struct ThresholdedRows
 {
@@ -107,13 +107,13 @@ struct ThresholdedRows
   {}
 
   SUBDIVISION_INLINE std::ptrdiff_t
-  FirstRow() const
+                     FirstRow() const
   {
     return S.HasRowAxis ? -SumReach : 0;
   }
 
   SUBDIVISION_INLINE std::ptrdiff_t
-  EndRow() const
+                     EndRow() const
   {
     return S.HasRowAxis ? S.Height + SumReach : 1;
   }
@@ -168,8 +168,7 @@ struct ThresholdedRows
   {
     SecondDifferenceRow(rowsAround, Begin - 1, End + 1, Buffers.RowCurvature);
     LimitRow(Buffers.RowCurvature, rowSums, S.Tension, Begin, End, Buffers.Limited[RowAxis]);
-    LimitSecondDifferenceRow(
-      Buffers.RowCurvature, bothSums, S.Tension, Begin, End, Buffers.Limited[BothAxesInPlane]);
+    LimitSecondDifferenceRow(Buffers.RowCurvature, bothSums, S.Tension, Begin, End, Buffers.Limited[BothAxesInPlane]);
     Buffers.SecondDifferences[0].Rotate();
     Buffers.SecondDifferences[1].Rotate();
     FilterLanes(Buffers.Limited[RowAxis],
@@ -254,13 +253,11 @@ SUBDIVISION_INLINE void
 AdvanceSteepMinima(SubdivisionSweep<T> & s, const ThresholdedRows<T> & rows, const std::ptrdiff_t r)
 {
   const std::ptrdiff_t here = r * s.Pitch;
-  WindowMinimumRow(
-    AlongLanes<T>{ s.Rows.Sums[LaneAxis] }, rows.Begin, rows.End, s.SteepMinima[LaneAxis][0] + here);
+  WindowMinimumRow(AlongLanes<T>{ s.Rows.Sums[LaneAxis] }, rows.Begin, rows.End, s.SteepMinima[LaneAxis][0] + here);
   if (s.HasRowAxis && r - 2 >= -SecondDifferenceReach)
   {
     const std::ptrdiff_t back = (r - 2) * s.Pitch;
-    WindowMinimumRow(
-      RowsAround<2>(s.Rows.RowAxisSums, 0, 0), rows.Begin, rows.End, s.SteepMinima[RowAxis][0] + back);
+    WindowMinimumRow(RowsAround<2>(s.Rows.RowAxisSums, 0, 0), rows.Begin, rows.End, s.SteepMinima[RowAxis][0] + back);
     WindowMinimumRow(
       RowsAround<2>(s.Rows.BothAxesSums, 0, 0), rows.Begin, rows.End, s.SteepMinima[BothAxesInPlane][0] + back);
   }

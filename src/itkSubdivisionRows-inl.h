@@ -18,7 +18,7 @@ struct AlongLanes
   const T * Row;
 
   SUBDIVISION_INLINE Vector<T>
-  operator()(std::ptrdiff_t x, int offset) const
+                     operator()(std::ptrdiff_t x, int offset) const
   {
     return Load(Row + x + offset);
   }
@@ -32,7 +32,7 @@ struct AcrossRows
   const T * Row[2 * VRadius + 1];
 
   SUBDIVISION_INLINE Vector<T>
-  operator()(std::ptrdiff_t x, int offset) const
+                     operator()(std::ptrdiff_t x, int offset) const
   {
     return Load(Row[VRadius - offset] + x);
   }
@@ -156,10 +156,7 @@ SumOfDifferences(const TValues values, const std::ptrdiff_t x)
 /** Window minima of a row or of several. */
 template <typename T, typename TSums>
 SUBDIVISION_INLINE void
-WindowMinimumRow(const TSums          sums,
-                 const std::ptrdiff_t begin,
-                 const std::ptrdiff_t end,
-                 T * const __restrict minimum)
+WindowMinimumRow(const TSums sums, const std::ptrdiff_t begin, const std::ptrdiff_t end, T * const __restrict minimum)
 {
   for (std::ptrdiff_t x = begin; x < end; x += LaneCount<T>())
   {

@@ -488,7 +488,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(Kerne
     });
   };
   const auto writeChildren = [&](const IndexValueType row, const IndexValueType plane, const unsigned int age) {
-    const auto    children = kernel.ComputeChildren(static_cast<std::size_t>(row), age);
+    const auto    children = kernel.GetChildren(age);
     SizeValueType written = 0;
     forEachChildRow(row, plane, [&](IndexValueType childRow, IndexValueType childPlane, int rowChild, int planeChild) {
       written += writer.WriteChildren(firstLane, childRow, childPlane, children.Rows[planeChild][rowChild], width);
@@ -512,6 +512,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(Kerne
       {
         prefetchChildren(row + 1, firstComplete + i);
       }
+      kernel.ComputeChildren(static_cast<std::size_t>(row), complete);
       for (unsigned int i = 0; i < complete; ++i)
       {
         writeChildren(row, firstComplete + i, complete - 1 - i);

@@ -49,7 +49,10 @@ NonOscillatorySubdivision_EXPORT std::string
  *     write kernel.GetInputRow(row)[-radius ... width + radius - 1];
  *   if (kernel.AdvancePlane())
  *     for (row = 0; row < height; ++row)
- *       use kernel.ComputeChildren(row);
+ *     {
+ *       kernel.ComputeChildren(row);
+ *       use kernel.GetChildren();
+ *     }
  * }
  * \endcode
  *
@@ -116,14 +119,16 @@ public:
   bool
   AdvancePlane();
 
-  /** Planes that are best advanced before their children are computed, row by row and for each row the oldest plane
-   * first: they share most of what they read. */
+  /** Planes whose children are best computed together, since they share most of what they read. */
   static constexpr unsigned int PlanesPerStep = 4;
 
-  /** Computes the children of one row of the plane that was complete \c age planes ago, less than \c PlanesPerStep.
-   * They stay valid until the next call of this method. */
+  /** Computes the children of one row in the \c planes planes, at most PlanesPerStep, that were complete last. */
+  void
+  ComputeChildren(std::size_t row, unsigned int planes = 1);
+
+  /** What ComputeChildren computed last, of the plane that was complete \c age planes before the newest one. */
   ChildRows
-  ComputeChildren(std::size_t row, unsigned int age = 0);
+  GetChildren(unsigned int age = 0) const;
 
 private:
   struct Implementation;

@@ -196,8 +196,11 @@ struct SubdivisionKernel<TReal>::Implementation
         rows.Sums[subset] = row();
         rows.Limited[subset] = row();
       }
-      Sweep.Children[0][subset] = row();
-      Sweep.Children[1][subset] = row();
+      for (auto & children : Sweep.Children)
+      {
+        children[0][subset] = row();
+        children[1][subset] = row();
+      }
     }
     ring(rows.Values[0], row);
     ring(rows.Values[1], row);
@@ -281,17 +284,24 @@ SubdivisionKernel<TReal>::AdvancePlane()
 }
 
 template <typename TReal>
+void
+SubdivisionKernel<TReal>::ComputeChildren(std::size_t row, unsigned int planes)
+{
+  m_Implementation->Steps.ComputeChildren(
+    m_Implementation->Sweep, static_cast<std::ptrdiff_t>(row), static_cast<int>(planes));
+}
+
+template <typename TReal>
 auto
-SubdivisionKernel<TReal>::ComputeChildren(std::size_t row, unsigned int age) -> ChildRows
+SubdivisionKernel<TReal>::GetChildren(unsigned int age) const -> ChildRows
 {
   const auto & sweep = m_Implementation->Sweep;
-  m_Implementation->Steps.ComputeChildren(sweep, static_cast<std::ptrdiff_t>(row), static_cast<int>(age));
-  ChildRows children{};
+  ChildRows    children{};
   for (int sweepChild = 0; sweepChild < 2; ++sweepChild)
   {
     for (int rowChild = 0; rowChild < 2; ++rowChild)
     {
-      const auto & planeChildren = sweep.Children[sweep.HasSweepAxis ? sweepChild : 0];
+      const auto & planeChildren = sweep.Children[age][sweep.HasSweepAxis ? sweepChild : 0];
       const int    lower = sweep.HasRowAxis ? rowChild * RowAxis : 0;
       children.Rows[sweepChild][rowChild] = { planeChildren[lower], planeChildren[lower + LaneAxis] };
     }

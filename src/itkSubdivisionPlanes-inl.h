@@ -462,7 +462,7 @@ BoundChildren(const SubdivisionSweep<T> & s,
     {
       for (int child = 0; child < planeChildren; ++child)
       {
-        T * const  values = s.Children[sweep][child] + x;
+        T * const  values = s.Children[age][sweep][child] + x;
         const auto value = Load(values);
         Store(IfFinite(value, OrderedMin(OrderedMax(value, low), high)), values);
       }
@@ -470,44 +470,48 @@ BoundChildren(const SubdivisionSweep<T> & s,
   }
 }
 
-/** The children of one row, of the plane whose stencils were complete \c age planes ago. */
+/** The children of one row, in a given number of planes: those whose stencils were complete last. */
 template <typename T>
 void
-ComputeChildren(const SubdivisionSweep<T> & s, const std::ptrdiff_t row, const int age)
+ComputeChildren(const SubdivisionSweep<T> & s, const std::ptrdiff_t row, const int planes)
 {
   using Scheme = NonOscillatorySubdivisionImageFilterEnums::Scheme;
   const std::ptrdiff_t offset = row * s.Pitch;
   const int            planeChildren = s.HasRowAxis ? 4 : 2;
   for (int child = 0; child < planeChildren; ++child)
   {
-    T * const lower = s.Children[0][child];
-    T * const upper = s.Children[1][child];
-    if (!s.HasSweepAxis)
+    // One plane after the other: they share most of what they read.
+    for (int age = planes - 1; age >= 0; --age)
     {
-      CopyRow(s.FlatChildren[child][age] + offset, s.Width, lower);
-    }
-    else if (s.Scheme == Scheme::NonOscillatory)
-    {
-      FilterRow(RowsAround<3>(s.FlatChildren[child], age, offset),
-                RowsAround<2>(s.SteepChildren[child], age, offset),
-                BSplineMask,
-                0,
-                s.Width,
-                lower,
-                upper);
-    }
-    else
-    {
-      FilterRow(RowsAround<3>(s.FlatChildren[child], age, offset),
-                NoSecondDifferences{},
-                s.Scheme == Scheme::BSpline ? BSplineMask : LinearMask,
-                0,
-                s.Width,
-                lower,
-                upper);
+      T * const lower = s.Children[age][0][child];
+      T * const upper = s.Children[age][1][child];
+      if (!s.HasSweepAxis)
+      {
+        CopyRow(s.FlatChildren[child][age] + offset, s.Width, lower);
+      }
+      else if (s.Scheme == Scheme::NonOscillatory)
+      {
+        FilterRow(RowsAround<3>(s.FlatChildren[child], age, offset),
+                  RowsAround<2>(s.SteepChildren[child], age, offset),
+                  BSplineMask,
+                  0,
+                  s.Width,
+                  lower,
+                  upper);
+      }
+      else
+      {
+        FilterRow(RowsAround<3>(s.FlatChildren[child], age, offset),
+                  NoSecondDifferences{},
+                  s.Scheme == Scheme::BSpline ? BSplineMask : LinearMask,
+                  0,
+                  s.Width,
+                  lower,
+                  upper);
+      }
     }
   }
-  if (s.Scheme == Scheme::BoundedLinear)
+  for (int age = planes - 1; age >= 0 && s.Scheme == Scheme::BoundedLinear; --age)
   {
     BoundChildren(s, offset, age, s.HasSweepAxis ? 2 : 1, planeChildren);
   }

@@ -118,8 +118,8 @@ struct SubdivisionSweep
     SubdivisionRing<T, 3> Largest;
   } Rows;
 
-  /** Children of one row, by [child along the sweep][child in the plane]. */
-  T * Children[2][SubsetsInPlane];
+  /** Children of one row, by [age of the plane][child along the sweep][child in the plane]. */
+  T * Children[PlanesPerStep][2][SubsetsInPlane];
 };
 
 /** What one instruction set offers: the two steps of a sweep and the conversions of pixels. */
@@ -127,7 +127,7 @@ template <typename T>
 struct SubdivisionSweepSteps
 {
   void (*AdvancePlane)(SubdivisionSweep<T> &);
-  void (*ComputeChildren)(const SubdivisionSweep<T> &, std::ptrdiff_t row, int age);
+  void (*ComputeChildren)(const SubdivisionSweep<T> &, std::ptrdiff_t row, int planes);
 };
 
 template <typename TPixel>

@@ -103,7 +103,7 @@ void
 PlaceOutput(TImage * image, const ref::Axes<D> & axes)
 {
   PlaceInput(image);
-  auto                              spacing = image->GetSpacing();
+  auto                         spacing = image->GetSpacing();
   typename TImage::SpacingType step;
   for (unsigned int w = 0; w < D; ++w)
   {
@@ -143,10 +143,10 @@ WriteSliceBaseline(const std::string & path, ref::Scheme scheme, const ref::Boun
 }
 
 void
-WriteVolumeBaseline(const std::string & path,
-                    ref::Scheme         scheme,
-                    const ref::Boundary<3> &  boundary,
-                    const ref::Axes<3> &      axes)
+WriteVolumeBaseline(const std::string &      path,
+                    ref::Scheme              scheme,
+                    const ref::Boundary<3> & boundary,
+                    const ref::Axes<3> &     axes)
 {
   ref::Settings<3> settings;
   settings.scheme = scheme;

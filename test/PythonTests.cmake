@@ -1,5 +1,5 @@
-# Tests in Python: the programs as a user runs them, and the experiments. A Debian system's Python comes first, as it has
-# the packages that Debian's numpy and the like install for.
+# Tests in Python: the programs as a user runs them, and the experiments. The system's Python comes first, as it is the
+# one that Debian's numpy and other packages install for.
 
 find_program(NonOscillatorySubdivision_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
 find_program(NonOscillatorySubdivision_PYTHON python3)
@@ -46,5 +46,9 @@ endfunction()
 
 add_python_test(subdivide_volume_test.py PROGRAMS SubdivideVolume)
 add_python_test(compare_volumes_test.py PROGRAMS CompareVolumes)
-add_python_test(experiments_test.py PROGRAMS SubdivideVolume CompareVolumes PACKAGES numpy scipy pywt matplotlib skimage vtkmodules
-)
+foreach(script experiments_test.py experiments_surfaces_test.py)
+  add_python_test(${script}
+    PROGRAMS SubdivideVolume CompareVolumes
+    PACKAGES numpy scipy pywt matplotlib skimage vtkmodules
+  )
+endforeach()

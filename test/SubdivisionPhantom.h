@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-/** The phantom of docs/scheme.md: bodies of value 1 on a ground of 0, in 96³ voxels, with indices in the order x, y, z. */
+/** The phantom of docs/scheme.md: bodies of value 1 on a ground of 0, in 96³ voxels. Indices are x, y, z. */
 namespace SubdivisionPhantom
 {
 using Point = std::array<double, 3>;

@@ -17,8 +17,8 @@ using ScalarOf = typename itk::NumericTraits<typename TImage::PixelType>::ValueT
 
 /** Whether a type makes the filter compute with double: double itself, and 32- and 64-bit integers. */
 template <typename TScalar>
-constexpr bool NeedsDouble = std::is_same<TScalar, double>::value ||
-                             (std::is_integral<TScalar>::value && sizeof(TScalar) >= 4);
+constexpr bool NeedsDouble =
+  std::is_same<TScalar, double>::value || (std::is_integral<TScalar>::value && sizeof(TScalar) >= 4);
 
 /** The largest difference allowed between the filter and the reference, before rounding to integers: so many units
  * in the last place of the largest magnitude in the image. On noise, where thresholds of every subset of axes add up,

@@ -412,8 +412,8 @@ public:
     : m_Settings(settings)
     , m_Image(image)
   {
-    m_Padded = FieldOn<D>(
-      image, settings.axes, Margin, [&](const Index<D> & index) { return settings.boundary(image, index); });
+    m_Padded =
+      FieldOn<D>(image, settings.axes, Margin, [&](const Index<D> & index) { return settings.boundary(image, index); });
     if (settings.scheme == Scheme::NonOscillatory)
     {
       for (const Axes<D> & subset : SubsetsOf<D>(settings.axes))

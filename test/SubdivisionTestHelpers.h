@@ -293,8 +293,7 @@ SameBytes(const TImage * a, const TImage * b)
   {
     if (std::memcmp(ScalarsOf(a) + i, ScalarsOf(b) + i, sizeof(Scalar)) != 0)
     {
-      return testing::AssertionFailure() << "scalar " << i << " is " << +ScalarsOf(a)[i] << " and "
-                                         << +ScalarsOf(b)[i];
+      return testing::AssertionFailure() << "scalar " << i << " is " << +ScalarsOf(a)[i] << " and " << +ScalarsOf(b)[i];
     }
   }
   return testing::AssertionSuccess();

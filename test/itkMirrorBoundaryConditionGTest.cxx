@@ -16,8 +16,7 @@ using Mirror = itk::MirrorBoundaryCondition<Image>;
 Image::Pointer
 SomeImage(const ref::Index<2> & start, const ref::Index<2> & size)
 {
-  return ImageOf<Image>(MakeRegion<Image>(start, size),
-                        [](const itk::Index<2> & i) { return 100 * i[1] + 7 * i[0]; });
+  return ImageOf<Image>(MakeRegion<Image>(start, size), [](const itk::Index<2> & i) { return 100 * i[1] + 7 * i[0]; });
 }
 
 } // namespace
@@ -39,8 +38,8 @@ TEST(MirrorBoundaryCondition, AnyIndexAnyDistanceOutside)
 
 TEST(MirrorBoundaryCondition, WorksInNeighborhoodIterators)
 {
-  const auto image = SomeImage({ 2, -4 }, { 6, 5 });
-  Mirror     mirror;
+  const auto                                    image = SomeImage({ 2, -4 }, { 6, 5 });
+  Mirror                                        mirror;
   itk::ConstNeighborhoodIterator<Image, Mirror> it({ { 3, 2 } }, image, image->GetBufferedRegion());
   for (; !it.IsAtEnd(); ++it)
   {

@@ -49,8 +49,8 @@ ExpectConversions()
   }
 }
 
-/** Values whose conversion is at issue: infinities, NaN, the ends of the range and beyond, and ties, which go to the even
- * integer. */
+/** Values whose conversion is at issue: infinities, NaN, the ends of the range and beyond, and ties, which go to the
+ * even integer. */
 template <typename TInteger>
 std::vector<std::pair<double, TInteger>>
 DelicateConversions()
@@ -202,7 +202,8 @@ TEST(NonOscillatorySubdivisionConversion, RealOutputKeepsOvershoots)
   using Reals = itk::Image<float, 1>;
   auto filter = itk::NonOscillatorySubdivisionImageFilter<Bytes, Reals>::New();
   filter->SetScheme(SchemeEnum::Linear);
-  const auto output = RunFilter(filter.GetPointer(), LineOf<Bytes>({ 0, 0, 0, 0, 0, 128, 128, 128, 128, 128 }).GetPointer());
+  const auto output =
+    RunFilter(filter.GetPointer(), LineOf<Bytes>({ 0, 0, 0, 0, 0, 128, 128, 128, 128, 128 }).GetPointer());
   EXPECT_EQ(ScalarsOf(output.GetPointer())[8], -14.0f);
   EXPECT_EQ(ScalarsOf(output.GetPointer())[11], 142.0f);
   EXPECT_EQ(ScalarsOf(output.GetPointer())[5], 1.25f);

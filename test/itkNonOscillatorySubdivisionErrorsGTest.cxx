@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every error is an itk::ExceptionObject that names the value and what is allowed, and the filter can be used afterwards.
+// Every error is an itk::ExceptionObject that names the value and what is allowed, and the filter can be used
+// afterwards.
 
 #include "SubdivisionCommonFilters.h"
 
@@ -52,12 +53,12 @@ SomeLine()
 
 TEST(NonOscillatorySubdivisionErrors, Tension)
 {
-  const double infinity = std::numeric_limits<double>::infinity();
-  const std::vector<std::pair<double, std::string>> bad{ { std::nan(""), "nan" },  { infinity, "inf" },
-                                                         { -infinity, "-inf" },    { 1.0, "1" },
-                                                         { 0.75, "0.75" },         { -2.5, "-2.5" },
-                                                         { 0.0, "0" } };
-  auto                                              filter = LineFilter::New();
+  const double                                      infinity = std::numeric_limits<double>::infinity();
+  const std::vector<std::pair<double, std::string>> bad{
+    { std::nan(""), "nan" }, { infinity, "inf" }, { -infinity, "-inf" }, { 1.0, "1" },
+    { 0.75, "0.75" },        { -2.5, "-2.5" },    { 0.0, "0" }
+  };
+  auto filter = LineFilter::New();
   filter->SetInput(SomeLine());
   for (const auto & [tension, name] : bad)
   {

@@ -40,7 +40,7 @@ PlacedImage()
 itk::Point<double, 3>
 BoxCorner(const DoubleImage * image, unsigned int corner)
 {
-  const auto                       region = image->GetLargestPossibleRegion();
+  const auto                      region = image->GetLargestPossibleRegion();
   itk::ContinuousIndex<double, 3> index;
   for (unsigned int w = 0; w < 3; ++w)
   {

@@ -88,8 +88,8 @@ ExpectOnlyReadersSpoilt(TImage *                           image,
     const auto child = it.GetIndex();
     const bool readByTaps = ReadsAlongAll<D>(child, voxel, size, 2, 3, boundary);
     ASSERT_EQ(std::isfinite(it.Get()), !readByTaps) << child << " is " << it.Get();
-    const bool seesIt = scheme == SchemeEnum::NonOscillatory ? ReadsAlongAll<D>(child, voxel, size, 4, 5, boundary)
-                                                             : readByTaps;
+    const bool seesIt =
+      scheme == SchemeEnum::NonOscillatory ? ReadsAlongAll<D>(child, voxel, size, 4, 5, boundary) : readByTaps;
     if (!seesIt)
     {
       ASSERT_EQ(it.Get(), clean->GetPixel(child)) << child;
@@ -99,9 +99,9 @@ ExpectOnlyReadersSpoilt(TImage *                           image,
 
 template <typename TImage>
 void
-ExpectOnlyReadersSpoiltEverywhere(const ref::Index<TImage::ImageDimension> &              size,
+ExpectOnlyReadersSpoiltEverywhere(const ref::Index<TImage::ImageDimension> &      size,
                                   const std::vector<typename TImage::IndexType> & voxels,
-                                  unsigned int                                            nature)
+                                  unsigned int                                    nature)
 {
   const auto image = MakeImage<TImage>(MakeRegion<TImage>({}, size));
   FillWithTestData(image.GetPointer(), -1.0, 1.0, nature);
@@ -113,8 +113,7 @@ ExpectOnlyReadersSpoiltEverywhere(const ref::Index<TImage::ImageDimension> &    
       {
         for (const auto & voxel : voxels)
         {
-          ASSERT_NO_FATAL_FAILURE(
-            ExpectOnlyReadersSpoilt<TImage>(image.GetPointer(), voxel, bad, scheme, boundary));
+          ASSERT_NO_FATAL_FAILURE(ExpectOnlyReadersSpoilt<TImage>(image.GetPointer(), voxel, bad, scheme, boundary));
         }
       }
     }
@@ -154,11 +153,11 @@ TEST(NonOscillatorySubdivisionNonFinite, Several)
     values[10] = infinity;
     values[12] = -infinity;
     const auto some = Subdivided<Line>(LineOf<Line>(values), scheme, BoundaryKind::ZeroFlux);
-    const auto all =
-      Subdivided<Line>(LineOf<Line>(std::vector<double>(9, infinity)), scheme, BoundaryKind::ZeroFlux);
+    const auto all = Subdivided<Line>(LineOf<Line>(std::vector<double>(9, infinity)), scheme, BoundaryKind::ZeroFlux);
     for (long m = 0; m < 60; ++m)
     {
-      const bool read = Reads(m, 10, 30, 2, 3, BoundaryKind::ZeroFlux) || Reads(m, 12, 30, 2, 3, BoundaryKind::ZeroFlux);
+      const bool read =
+        Reads(m, 10, 30, 2, 3, BoundaryKind::ZeroFlux) || Reads(m, 12, 30, 2, 3, BoundaryKind::ZeroFlux);
       EXPECT_EQ(std::isfinite(some->GetPixel({ { m } })), !read) << scheme << ", child " << m;
       EXPECT_FALSE(m < 18 && std::isfinite(all->GetPixel({ { m } }))) << scheme << ", child " << m;
     }

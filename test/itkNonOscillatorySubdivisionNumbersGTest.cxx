@@ -126,7 +126,7 @@ TEST(NonOscillatorySubdivisionNumbers, MeanOfBSplineChildren)
 {
   std::vector<double> spike(13, 0.0);
   spike[6] = 1.0;
-  const auto output = SubdivideLine(spike, SchemeEnum::BSpline, 2.0, BoundaryKind::ZeroFlux);
+  const auto                  output = SubdivideLine(spike, SchemeEnum::BSpline, 2.0, BoundaryKind::ZeroFlux);
   const std::array<double, 7> mask{ 1, 66, 495, 924, 495, 66, 1 };
   for (std::size_t j = 3; j < 10; ++j)
   {

@@ -54,8 +54,8 @@ TEST(NonOscillatorySubdivisionObject, PrintsItsOptions)
 
 TEST(NonOscillatorySubdivisionObject, OptionsModifyTheFilter)
 {
-  BoundaryConditions<DoubleImage>                  boundaries;
-  auto                                             filter = DoubleFilter::New();
+  BoundaryConditions<DoubleImage>          boundaries;
+  auto                                     filter = DoubleFilter::New();
   const std::vector<std::function<void()>> changes{ [&] { filter->SetScheme(SchemeEnum::Linear); },
                                                     [&] { filter->SetTension(4.0); },
                                                     [&] { filter->SetBoundaryCondition(&boundaries.mirror); },
@@ -116,6 +116,7 @@ TEST(NonOscillatorySubdivisionObject, OtherSchemesIgnoreTheTension)
     filter->SetScheme(scheme);
     const auto once = RunFilter(filter.GetPointer(), input.GetPointer());
     filter->SetTension(7.0);
-    EXPECT_TRUE(SameBytes(RunFilter(filter.GetPointer(), input.GetPointer()).GetPointer(), once.GetPointer())) << scheme;
+    EXPECT_TRUE(SameBytes(RunFilter(filter.GetPointer(), input.GetPointer()).GetPointer(), once.GetPointer()))
+      << scheme;
   }
 }

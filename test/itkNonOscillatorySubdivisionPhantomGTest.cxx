@@ -14,8 +14,8 @@ DoubleImage::Pointer
 SubdividedPhantom(SchemeEnum scheme, double tension)
 {
   constexpr long n = SubdivisionPhantom::Size;
-  const auto     phantom = ImageOf<DoubleImage>(
-    MakeRegion<DoubleImage>({ 0, 0, 0 }, { n, n, n }), [](const itk::Index<3> & i) {
+  const auto     phantom =
+    ImageOf<DoubleImage>(MakeRegion<DoubleImage>({ 0, 0, 0 }, { n, n, n }), [](const itk::Index<3> & i) {
       return SubdivisionPhantom::ValueAt(
         { static_cast<double>(i[0]), static_cast<double>(i[1]), static_cast<double>(i[2]) });
     });

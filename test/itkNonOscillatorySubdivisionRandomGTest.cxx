@@ -18,15 +18,9 @@ TEST(NonOscillatorySubdivisionRandom, TwoDimensions)
   CompareWithReference<itk::Image<short, 2>>(60, -1024.0, 3071.0);
 }
 
-TEST(NonOscillatorySubdivisionRandom, ThreeDimensionsDouble)
-{
-  CompareWithReference<DoubleImage>(60, -1.0, 1.0);
-}
+TEST(NonOscillatorySubdivisionRandom, ThreeDimensionsDouble) { CompareWithReference<DoubleImage>(60, -1.0, 1.0); }
 
-TEST(NonOscillatorySubdivisionRandom, ThreeDimensionsFloat)
-{
-  CompareWithReference<FloatImage>(60, -1000.0, 1000.0);
-}
+TEST(NonOscillatorySubdivisionRandom, ThreeDimensionsFloat) { CompareWithReference<FloatImage>(60, -1000.0, 1000.0); }
 
 TEST(NonOscillatorySubdivisionRandom, ThreeDimensionsUnsignedShort)
 {

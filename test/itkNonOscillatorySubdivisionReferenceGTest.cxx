@@ -84,7 +84,8 @@ TEST(SubdivisionReference, SixthOrderOnSine)
       auto settings = LineSettings(scheme, 1.01);
       settings.boundary = ref::Periodic<1>();
       const Line   output = ref::Subdivide<1>(MakeLine(SubdivisionNumbers::SineAverages(cells)), settings);
-      const double error = SubdivisionNumbers::LargestDifference(output.values, SubdivisionNumbers::SineAverages(2 * cells));
+      const double error =
+        SubdivisionNumbers::LargestDifference(output.values, SubdivisionNumbers::SineAverages(2 * cells));
       EXPECT_NEAR(error, expected, 0.0006 * expected) << cells << " cells";
     }
   }
@@ -182,9 +183,8 @@ TEST(SubdivisionReference, BoundedLinearIsTheClampedLinearScheme)
 /** At a plain edge in 3-D, every threshold next to it vanishes: the range is kept although the data jumps. */
 TEST(SubdivisionReference, RangeIsKeptAtEdgesInThreeDimensions)
 {
-  const auto cube = ref::MakeGrid<3>({}, { 14, 14, 14 }, [](const ref::Index<3> & i) {
-    return i[0] >= 7 && i[1] >= 7 && i[2] >= 7 ? 1.0 : 0.0;
-  });
+  const auto cube = ref::MakeGrid<3>(
+    {}, { 14, 14, 14 }, [](const ref::Index<3> & i) { return i[0] >= 7 && i[1] >= 7 && i[2] >= 7 ? 1.0 : 0.0; });
   const auto output = ref::Subdivide<3>(cube, {});
   EXPECT_EQ(*std::min_element(output.values.begin(), output.values.end()), 0.0);
   EXPECT_EQ(*std::max_element(output.values.begin(), output.values.end()), 1.0);

@@ -53,7 +53,7 @@ ExpectSubRegionsAsWhole(SchemeEnum scheme, BoundaryKind boundary, unsigned int s
   std::mt19937 engine(seed);
   for (int trial = 0; trial < 12; ++trial)
   {
-    const auto region = RandomSubRegion(whole->GetLargestPossibleRegion(), engine);
+    const auto       region = RandomSubRegion(whole->GetLargestPossibleRegion(), engine);
     Pipeline<TImage> part({ -7, 3, 0 }, { 37, 12, 11 }, scheme, boundary);
     part.filter->UpdateOutputInformation();
     part.filter->GetOutput()->SetRequestedRegion(region);

@@ -33,7 +33,7 @@ Permuted(const DoubleImage * image, const std::array<unsigned int, 3> & order)
 DoubleImage::Pointer
 Flipped(const DoubleImage * image, bool x, bool y, bool z)
 {
-  auto                      flip = itk::FlipImageFilter<DoubleImage>::New();
+  auto                     flip = itk::FlipImageFilter<DoubleImage>::New();
   itk::FixedArray<bool, 3> axes;
   axes[0] = x;
   axes[1] = y;
@@ -111,8 +111,8 @@ TEST(NonOscillatorySubdivisionSymmetry, MirrorIsPeriodicOfTheMirroredImage)
   const auto image = TestImages().front();
   const auto size = image->GetBufferedRegion().GetSize();
   const auto doubled = ImageOf<DoubleImage>(
-    MakeRegion<DoubleImage>({ 0, 0, 0 },
-                            { 2 * static_cast<long>(size[0]), 2 * static_cast<long>(size[1]), 2 * static_cast<long>(size[2]) }),
+    MakeRegion<DoubleImage>(
+      { 0, 0, 0 }, { 2 * static_cast<long>(size[0]), 2 * static_cast<long>(size[1]), 2 * static_cast<long>(size[2]) }),
     [&](itk::Index<3> i) {
       for (unsigned int w = 0; w < 3; ++w)
       {

@@ -182,15 +182,9 @@ TEST(NonOscillatorySubdivisionTargets, AreChosenByName)
   EXPECT_EQ(itk::GetSubdivisionTarget(), itk::GetSubdivisionTargets().front());
 }
 
-TEST(NonOscillatorySubdivisionTargets, FloatsAgree)
-{
-  ExpectRealsAgree<FloatImage>(8.0);
-}
+TEST(NonOscillatorySubdivisionTargets, FloatsAgree) { ExpectRealsAgree<FloatImage>(8.0); }
 
-TEST(NonOscillatorySubdivisionTargets, DoublesAgree)
-{
-  ExpectRealsAgree<DoubleImage>(8.0);
-}
+TEST(NonOscillatorySubdivisionTargets, DoublesAgree) { ExpectRealsAgree<DoubleImage>(8.0); }
 
 TEST(NonOscillatorySubdivisionTargets, EightBitIntegersAgree)
 {
@@ -211,8 +205,8 @@ TEST(NonOscillatorySubdivisionTargets, FullRangeOfSixteenBitsAgrees)
   ExpectIntegersAgree<UShortImage>(0.0, 65535.0, 8.0 / 256.0);
 }
 
-/** Every target, the portable one included: a part of the output has the bytes of the whole, wherever tiles, vectors and
- * their rests fall. */
+/** Every target, the portable one included: a part of the output has the bytes of the whole, wherever tiles, vectors
+ * and their rests fall. */
 TEST(NonOscillatorySubdivisionTargets, PartsAreThoseOfTheWhole)
 {
   const auto bytes = MakeImage<ByteImage>(MakeRegion<ByteImage>({ 0, -4, 2 }, { 83, 19, 11 }));

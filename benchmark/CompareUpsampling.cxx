@@ -36,12 +36,12 @@ ReturnReleasedOutputsToSystem()
 #endif
 }
 
-/** Updates that make up one measured repetition: volumes below 128³ are repeated until they weigh as much. */
+/** Updates that make up one measured repetition: volumes below 128³ are repeated, up to 16 times. */
 int
 GetIterations(const BenchmarkRow & row, const Workload & workload)
 {
   const double ratio = 128.0 / workload.Size;
-  return row.IsSlow ? 1 : std::max(1, static_cast<int>(ratio * ratio * ratio));
+  return row.IsSlow ? 1 : static_cast<int>(std::clamp(ratio * ratio * ratio, 1.0, 16.0));
 }
 
 void
@@ -138,5 +138,5 @@ main(int argc, char * argv[])
   AddMachineContext();
   ComparisonTable table;
   benchmark::RunSpecifiedBenchmarks(&table);
-  return EXIT_SUCCESS;
+  return table.HasFailures() ? EXIT_FAILURE : EXIT_SUCCESS;
 }

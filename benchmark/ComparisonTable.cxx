@@ -52,6 +52,7 @@ ComparisonTable::ReportRuns(const std::vector<Run> & runs)
     if (run.iterations == 0)
     {
       GetErrorStream() << run.run_name.function_name << ": " << run.error_message << '\n';
+      m_HasFailures = true;
       continue;
     }
     seconds.push_back(run.real_accumulated_time / static_cast<double>(run.iterations));

@@ -27,6 +27,13 @@ public:
   void
   Finalize() override;
 
+  /** Whether a row could not be measured; its error has been printed. */
+  bool
+  HasFailures() const
+  {
+    return m_HasFailures;
+  }
+
 private:
   struct Line
   {
@@ -46,6 +53,7 @@ private:
   std::map<std::int64_t, Line> m_Lines;
   /** ExpandImageFilter's times by workload. */
   std::map<std::string, double> m_ReferenceSeconds;
+  bool                          m_HasFailures{ false };
 };
 
 } // namespace subdivision_benchmark

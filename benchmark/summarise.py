@@ -142,14 +142,15 @@ def print_spread(workload, memories):
     print_table(["row", "repetitions", "least, ms", "median, ms", "most, ms"], lines)
 
 
-def print_peaks(peaks):
+def print_peaks(peaks, use_processor_time):
     print("## Multiply-add peak\n")
     lines = [
         [target, threads.partition(":")[2], f"{row.lane_operations / row.time / 1e9:.1f}"]
         for threads, targets in peaks.items()
         for target, row in targets.items()
     ]
-    print_table(["instruction set", "threads", "10⁹ lanes a second"], lines)
+    second = "processor second" if use_processor_time else "second"
+    print_table(["instruction set", "threads", f"10⁹ lanes a {second}"], lines)
 
 
 def main():
@@ -180,7 +181,7 @@ def main():
         for workload, memories in workloads.items():
             print_spread(workload, memories)
     if peaks:
-        print_peaks(peaks)
+        print_peaks(peaks, arguments.processor_time)
 
 
 if __name__ == "__main__":

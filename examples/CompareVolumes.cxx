@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // CompareVolumes REFERENCE TEST: how far a volume is from a reference, as text or as JSON.
 
+#include "FileIntegrity.h"
 #include "InputImage.h"
 #include "LibraryMessages.h"
 #include "OneLineMessage.h"
@@ -64,21 +65,30 @@ OpenScalarImage(const std::string & path)
 }
 
 template <typename TImage>
-typename TImage::Pointer
-ReadImage(const InputImage & input)
+typename itk::ImageSource<TImage>::Pointer
+MakeReader(const InputImage & input)
 {
   if (input.FileNames.size() > 1)
   {
     const auto reader = itk::ImageSeriesReader<TImage>::New();
     reader->SetImageIO(input.ImageIO);
     reader->SetFileNames(input.FileNames);
-    reader->Update();
-    return reader->GetOutput();
+    return reader.GetPointer();
   }
   const auto reader = itk::ImageFileReader<TImage>::New();
   reader->SetImageIO(input.ImageIO);
   reader->SetFileName(input.FileNames.front());
+  return reader.GetPointer();
+}
+
+template <typename TImage>
+typename TImage::Pointer
+ReadImage(const InputImage & input)
+{
+  const LibraryMessages messages;
+  const auto            reader = MakeReader<TImage>(input);
   reader->Update();
+  CheckMessages(input.FileNames.front(), messages.GetText());
   return reader->GetOutput();
 }
 
@@ -152,15 +162,12 @@ Compare(const InputImage & reference, const InputImage & test, const Options & o
 {
   using ImageType = itk::Image<TPixel, VDimension>;
   const auto calculator = itk::ImageFidelityCalculator<ImageType>::New();
-  {
-    const LibraryMessages messages;
-    calculator->SetReferenceImage(ReadImage<ImageType>(reference));
-    calculator->SetTestImage(ReadImage<ImageType>(test));
-    calculator->SetPeak(options.peak);
-    calculator->SetQuantileLevels(GetQuantileLevels(options));
-    calculator->SetUseImageSpacing(options.useSpacing);
-    calculator->Update();
-  }
+  calculator->SetReferenceImage(ReadImage<ImageType>(reference));
+  calculator->SetTestImage(ReadImage<ImageType>(test));
+  calculator->SetPeak(options.peak);
+  calculator->SetQuantileLevels(GetQuantileLevels(options));
+  calculator->SetUseImageSpacing(options.useSpacing);
+  calculator->Update();
   if (options.json)
   {
     PrintJson(*calculator);

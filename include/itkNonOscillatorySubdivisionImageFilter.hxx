@@ -356,11 +356,10 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::BorrowKernel() 
       return kernel;
     }
   }
-  const auto  numberOfAxes = static_cast<unsigned int>(this->GetAxes().size());
-  std::size_t width = 0;
-  std::size_t height = 0;
-  KernelType::GetRecommendedTileSize(numberOfAxes, width, height);
-  return KernelPointer(new KernelType(m_Scheme, m_Tension, numberOfAxes, width, height));
+  const SubdivisionTileAxes axes(this->GetAxes());
+  const SizeType            tile = this->ComputeTileSize(this->ComputeParents(this->GetOutput()->GetRequestedRegion()));
+  return KernelPointer(
+    new KernelType(m_Scheme, m_Tension, axes.GetNumber(), tile[axes.GetLanes()], tile[axes.GetRows()]));
 }
 
 template <typename TInputImage, typename TOutputImage>

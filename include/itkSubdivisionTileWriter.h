@@ -2,6 +2,7 @@
 #ifndef itkSubdivisionTileWriter_h
 #define itkSubdivisionTileWriter_h
 
+#include "itkSubdivisionMasks.h"
 #include "itkSubdivisionPixelTraits.h"
 #include "itkSubdivisionTileAxes.h"
 
@@ -61,7 +62,7 @@ public:
     {
       return 0;
     }
-    const auto count = static_cast<IndexValueType>(2 * parents);
+    const auto count = static_cast<IndexValueType>(SubdivisionMasks::Children * parents);
     if (m_Stride == 1 && m_Begin == lane && m_End == lane + count)
     {
       Interleave(children, parents, pixels);

@@ -1,125 +1,152 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FileIntegrity.h"
+#include "MetaImageIntegrity.h"
 
-#include "itkMetaImageIO.h"
+#include "itkStreamingImageIOBase.h"
 #include "itk_zlib.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
+#include <cstring>
+#include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
-namespace fs = std::filesystem;
-
 namespace
 {
-/** What the text of a MetaImage header says beyond MetaIO's own interface. */
-struct MetaHeader
+/** A file, gzip or not, seen from its start. */
+class Bytes
 {
-  std::uint64_t Size = 0;           // bytes up to the data that follow in the same file
-  std::uint64_t CompressedSize = 0; // 0 where it is not given
+public:
+  explicit Bytes(const std::string & path)
+    : m_File(gzopen(path.c_str(), "rb"), gzclose)
+  {}
+
+  /** Reads on; returns the number of bytes that were there. */
+  std::uint64_t
+  Read(char * bytes, std::uint64_t count)
+  {
+    const int read = m_File != nullptr ? gzread(m_File.get(), bytes, static_cast<unsigned int>(count)) : -1;
+    return read > 0 ? static_cast<std::uint64_t>(read) : 0;
+  }
+
+  /** Reads on, up to \c count bytes; returns the number of bytes that were there. */
+  std::uint64_t
+  Skip(std::uint64_t count)
+  {
+    std::vector<char> buffer(1 << 18);
+    std::uint64_t     done = 0;
+    while (done < count)
+    {
+      const std::uint64_t read = this->Read(buffer.data(), std::min<std::uint64_t>(buffer.size(), count - done));
+      if (read == 0)
+      {
+        break;
+      }
+      done += read;
+    }
+    return done;
+  }
+
+private:
+  std::unique_ptr<gzFile_s, int (*)(gzFile)> m_File;
 };
 
-MetaHeader
-ReadMetaHeader(const fs::path & path)
+void
+CheckBytes(const std::string & path, std::uint64_t available, std::uint64_t expected)
 {
-  MetaHeader    header;
-  std::ifstream file(path, std::ios::binary);
-  for (std::string line; std::getline(file, line);)
+  if (available < expected)
   {
-    const auto value = line.find_first_not_of(" \t=", line.find_first_of(" \t="));
-    if (line.rfind("CompressedDataSize", 0) == 0 && value != std::string::npos)
-    {
-      header.CompressedSize = std::strtoull(line.c_str() + value, nullptr, 10);
-    }
-    if (line.rfind("ElementDataFile", 0) == 0)
-    {
-      header.Size = static_cast<std::uint64_t>(file.tellg());
-      break;
-    }
+    throw std::runtime_error("cannot read " + path + ": it is truncated, with " + std::to_string(available) + " of " +
+                             std::to_string(expected) + " bytes");
   }
-  return header;
 }
 
-/** Bytes that come out of a zlib or gzip stream; where it breaks off, those up to there. */
-std::uint64_t
-CountInflatedBytes(const fs::path & path, std::uint64_t offset)
+/** Numbers of a NIfTI-1 header in either byte order. */
+class NiftiHeader
 {
-  std::ifstream file(path, std::ios::binary);
-  file.seekg(static_cast<std::streamoff>(offset));
-  z_stream      stream = {};
-  constexpr int anyHeader = 32 + MAX_WBITS;
-  if (inflateInit2(&stream, anyHeader) != Z_OK)
-  {
-    return 0;
-  }
-  std::vector<char>          in(1 << 18);
-  std::vector<unsigned char> out(1 << 18);
-  std::uint64_t              count = 0;
-  int                        status = Z_OK;
-  while (status == Z_OK && (file.read(in.data(), static_cast<std::streamsize>(in.size())), file.gcount() > 0))
-  {
-    stream.next_in = reinterpret_cast<unsigned char *>(in.data());
-    stream.avail_in = static_cast<unsigned int>(file.gcount());
-    do
-    {
-      stream.next_out = out.data();
-      stream.avail_out = static_cast<unsigned int>(out.size());
-      status = inflate(&stream, Z_NO_FLUSH);
-      count += out.size() - stream.avail_out;
-    } while (status == Z_OK && (stream.avail_in > 0 || stream.avail_out == 0));
-    status = status == Z_BUF_ERROR ? Z_OK : status;
-  }
-  inflateEnd(&stream);
-  return count;
-}
+public:
+  static constexpr std::size_t Size = 348;
 
-[[noreturn]] void
-FailTruncated(const fs::path & path, std::uint64_t available, std::uint64_t expected)
+  explicit NiftiHeader(Bytes & bytes)
+  {
+    m_IsComplete = bytes.Read(m_Header.data(), Size) == Size;
+    m_IsSwapped = this->GetShort(40) < 1 || this->GetShort(40) > 7;
+  }
+
+  /** Whether it is a header of version 1 at all, and its voxels follow in the same file. */
+  bool
+  IsSingleFile() const
+  {
+    return m_IsComplete && std::memcmp(m_Header.data() + 344, "n+1", 3) == 0;
+  }
+
+  std::uint64_t
+  GetDataBytes() const
+  {
+    std::uint64_t bits = this->GetShort(72);
+    for (int axis = 1; axis <= this->GetShort(40); ++axis)
+    {
+      bits *= this->GetShort(40 + 2 * axis);
+    }
+    return bits / 8;
+  }
+
+private:
+  int
+  GetShort(std::size_t offset) const
+  {
+    const auto first = static_cast<unsigned char>(m_Header[offset + (m_IsSwapped ? 1 : 0)]);
+    const auto second = static_cast<unsigned char>(m_Header[offset + (m_IsSwapped ? 0 : 1)]);
+    return first + 256 * second;
+  }
+
+  std::array<char, Size> m_Header{};
+  bool                   m_IsComplete = false;
+  bool                   m_IsSwapped = false;
+};
+
+void
+CheckNifti(const std::string & path)
 {
-  throw std::runtime_error("cannot read " + path.string() + ": it is truncated or damaged, with " +
-                           std::to_string(available) + " of " + std::to_string(expected) + " bytes of data");
+  Bytes             bytes(path);
+  const NiftiHeader header(bytes);
+  if (header.IsSingleFile())
+  {
+    constexpr std::uint64_t extension = 4; // the least that lies between the header and the voxels
+    CheckBytes(path, bytes.Skip(extension + header.GetDataBytes()), extension + header.GetDataBytes());
+  }
 }
 
 void
-CheckMetaImage(const fs::path & path, itk::MetaImageIO & imageIO)
+CheckGipl(const std::string & path, const itk::ImageIOBase & imageIO)
 {
-  const MetaImage & image = *imageIO.GetMetaImagePointer();
-  const std::string dataName = image.ElementDataFileName();
-  const bool        severalFiles = dataName.rfind("LIST", 0) == 0 || dataName.find('%') != std::string::npos;
-  if (severalFiles || !image.BinaryData())
+  constexpr std::uint64_t header = 256;
+  const std::uint64_t     expected = header + static_cast<std::uint64_t>(imageIO.GetImageSizeInBytes());
+  CheckBytes(path, Bytes(path).Skip(expected), expected);
+}
+
+/** Reads the last voxel alone: reading regions, these formats do tell if there is nothing. */
+void
+CheckLastVoxel(const std::string & path, itk::ImageIOBase & imageIO)
+{
+  itk::ImageIORegion region(imageIO.GetNumberOfDimensions());
+  for (unsigned int axis = 0; axis < imageIO.GetNumberOfDimensions(); ++axis)
   {
-    return;
+    region.SetIndex(axis, static_cast<itk::IndexValueType>(imageIO.GetDimensions(axis)) - 1);
+    region.SetSize(axis, 1);
   }
-  const MetaHeader header = ReadMetaHeader(path);
-  const bool       local = dataName == "LOCAL" || dataName == "Local" || dataName == "local";
-  const fs::path   data = local ? path : path.parent_path() / dataName;
-  std::error_code  error;
-  const auto       fileSize = fs::file_size(data, error);
-  if (error)
+  std::vector<char> voxel(imageIO.GetComponentSize() * imageIO.GetNumberOfComponents());
+  imageIO.SetIORegion(region);
+  try
   {
-    throw std::runtime_error("cannot read " + data.string() + ": " + error.message());
+    imageIO.Read(voxel.data());
   }
-  const std::uint64_t offset = image.HeaderSize() > 0 ? image.HeaderSize() : local ? header.Size : 0;
-  const std::uint64_t available = fileSize > offset ? fileSize - offset : 0;
-  const auto          expected = static_cast<std::uint64_t>(imageIO.GetImageSizeInBytes());
-  if (!image.CompressedData())
+  catch (const itk::ExceptionObject &)
   {
-    if (available < expected)
-    {
-      FailTruncated(data, available, expected);
-    }
-    return;
-  }
-  if (available < header.CompressedSize)
-  {
-    FailTruncated(data, available, header.CompressedSize);
-  }
-  const std::uint64_t inflated = CountInflatedBytes(data, offset);
-  if (inflated < expected)
-  {
-    FailTruncated(data, inflated, expected);
+    throw std::runtime_error("cannot read " + path + ": it is truncated, and lacks its last voxel");
   }
 }
 } // namespace
@@ -127,8 +154,36 @@ CheckMetaImage(const fs::path & path, itk::MetaImageIO & imageIO)
 void
 CheckFileIsWhole(const std::string & path, itk::ImageIOBase & imageIO)
 {
-  if (auto * const metaImageIO = dynamic_cast<itk::MetaImageIO *>(&imageIO))
+  const std::string format = imageIO.GetNameOfClass();
+  if (format == "MetaImageIO")
   {
-    CheckMetaImage(path, *metaImageIO);
+    CheckMetaImageIsWhole(path, imageIO);
+  }
+  else if (format == "NiftiImageIO")
+  {
+    CheckNifti(path);
+  }
+  else if (format == "GiplImageIO")
+  {
+    CheckGipl(path, imageIO);
+  }
+  else if (dynamic_cast<itk::StreamingImageIOBase *>(&imageIO) != nullptr && imageIO.CanStreamRead() &&
+           imageIO.GetFileType() != itk::IOFileEnum::ASCII)
+  {
+    CheckLastVoxel(path, imageIO);
+  }
+}
+
+void
+CheckMessages(const std::string & path, const std::string & messages)
+{
+  // libtiff's errors, which look like "TIFFReadDirectory: Failed to read ..."; its warnings have "Warning" there.
+  std::istringstream text(messages);
+  for (std::string line; std::getline(text, line);)
+  {
+    if (line.rfind("TIFF", 0) == 0 && line.find(": Warning") == std::string::npos)
+    {
+      throw std::runtime_error("cannot read " + path + ": it is truncated or damaged: " + line);
+    }
   }
 }

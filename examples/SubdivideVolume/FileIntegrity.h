@@ -6,12 +6,16 @@
 
 #include <string>
 
-/** Checks that a MetaImage holds as much data as its header says; other formats are left to their own readers.
- * MetaIO would take what is missing from a compressed file for zeros, and would tell of a short uncompressed one only
- * when the program gets there.
+/** Checks that a file holds as much data as its header says. The readers of several formats would go on without a word
+ * and leave what is missing as it comes; MetaIO would tell of a short file only when it gets there.
  * \param imageIO has read the header
- * \throw std::runtime_error */
+ * \throw std::exception */
 void
 CheckFileIsWhole(const std::string & path, itk::ImageIOBase & imageIO);
+
+/** Checks what a library printed while it read a file, where that is the only sign that data is missing.
+ * \throw std::runtime_error */
+void
+CheckMessages(const std::string & path, const std::string & messages);
 
 #endif

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Interrupt.h"
 
+#include "LibraryMessages.h"
+
 #include <csignal>
+#include <exception>
 #include <thread>
 
 #include <unistd.h>
@@ -52,6 +55,15 @@ DieOf(int signal)
   _exit(128 + signal);
 }
 
+/** HDF5's C++ classes throw in their destructors when the disk is full. */
+[[noreturn]] void
+DieOfAnException()
+{
+  RemoveFolder();
+  std::fprintf(GetTerminal(), "SubdivideVolume: an image library failed; is the disk full?\n");
+  _exit(1);
+}
+
 void
 WaitForInterrupt(sigset_t signals)
 {
@@ -72,6 +84,7 @@ WatchForInterrupts()
   std::signal(SIGXFSZ, SIG_IGN);
   const sigset_t signals = GetEndingSignals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::set_terminate(DieOfAnException);
   std::thread(WaitForInterrupt, signals).detach();
 }
 

@@ -2,33 +2,32 @@
 #ifndef LibraryMessages_h
 #define LibraryMessages_h
 
-#include <iostream>
-#include <sstream>
+#include <cstdio>
+#include <streambuf>
+#include <string>
 
-/** Keeps from the terminal what the image libraries print to std::cout and std::cerr while they read and write: errors
- * reach the user as exceptions, in one line, and 3D Slicer reads stdout. The program itself prints with std::printf. */
+/** Where the program tells the user of errors and progress: stderr, even while it is kept from the libraries. */
+std::FILE *
+GetTerminal();
+
+/** Keeps from the terminal what the image libraries print while they read and write: errors reach the user as
+ * exceptions, in one line, and 3D Slicer reads stdout. The program itself prints with std::printf and to GetTerminal(). */
 class LibraryMessages
 {
 public:
-  LibraryMessages()
-    : m_Output(std::cout.rdbuf(m_Text.rdbuf()))
-    , m_Error(std::cerr.rdbuf(m_Text.rdbuf()))
-  {}
-
-  ~LibraryMessages()
-  {
-    std::cout.rdbuf(m_Output);
-    std::cerr.rdbuf(m_Error);
-  }
-
+  LibraryMessages();
+  ~LibraryMessages();
   LibraryMessages(const LibraryMessages &) = delete;
   LibraryMessages &
   operator=(const LibraryMessages &) = delete;
 
+  /** All that was printed. */
+  std::string
+  GetText() const;
+
 private:
-  std::ostringstream     m_Text;
+  std::FILE * const      m_File;
   std::streambuf * const m_Output;
-  std::streambuf * const m_Error;
 };
 
 #endif

@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <functional>
+#include <numeric>
 #include <stdexcept>
 
 #include <fcntl.h>
@@ -17,6 +19,14 @@ namespace fs = std::filesystem;
 
 namespace
 {
+/** What an exception says, less the place in the code that ITK's exceptions name. */
+std::string
+GetReason(const std::exception & error)
+{
+  const auto * const itkError = dynamic_cast<const itk::ExceptionObject *>(&error);
+  return itkError != nullptr ? itkError->GetDescription() : error.what();
+}
+
 std::string
 InMegabytes(std::uint64_t bytes)
 {
@@ -25,13 +35,13 @@ InMegabytes(std::uint64_t bytes)
 
 /** Says so at once if the disk has not enough room. */
 void
-CheckDiskSpace(const fs::path & folder, std::uint64_t bytes)
+CheckDiskSpace(const std::string & path, const fs::path & folder, std::uint64_t bytes)
 {
   std::error_code error;
   const auto      space = fs::space(folder, error);
   if (!error && space.available < bytes)
   {
-    throw std::runtime_error("the output needs " + InMegabytes(bytes) + ", and the disk has " +
+    throw std::runtime_error("cannot write " + path + ": it needs " + InMegabytes(bytes) + ", and the disk has " +
                              InMegabytes(space.available) + " left");
   }
 }
@@ -61,18 +71,115 @@ IsMetaImage(const itk::ImageIOBase * imageIO)
 {
   return dynamic_cast<const itk::MetaImageIO *>(imageIO) != nullptr;
 }
+
+std::uint64_t
+GetNumberOfVoxels(const std::vector<itk::SizeValueType> & size)
+{
+  return std::accumulate(size.begin(), size.end(), std::uint64_t{ 1 }, std::multiplies<>());
+}
+
+itk::ImageIORegion
+GetWholeRegion(const ImageGrid & grid)
+{
+  itk::ImageIORegion region(static_cast<unsigned int>(grid.Size.size()));
+  region.SetSize(grid.Size);
+  return region;
+}
+
+void
+Describe(itk::ImageIOBase & imageIO, const ImageGrid & grid, PixelComponent component, const InputImage & input)
+{
+  imageIO.SetNumberOfDimensions(static_cast<unsigned int>(grid.Size.size()));
+  for (unsigned int axis = 0; axis < grid.Size.size(); ++axis)
+  {
+    imageIO.SetDimensions(axis, grid.Size[axis]);
+    imageIO.SetSpacing(axis, grid.Spacing[axis]);
+    imageIO.SetOrigin(axis, grid.Origin[axis]);
+    imageIO.SetDirection(axis, grid.Directions[axis]);
+  }
+  imageIO.SetComponentType(component);
+  imageIO.SetNumberOfComponents(input.NumberOfComponents);
+  imageIO.SetPixelType(input.ImageIO->GetPixelType());
+
+  itk::MetaDataDictionary dictionary = input.ImageIO->GetMetaDataDictionary();
+  // What itk::ImageFileReader notes of the input's grid is wrong for the output.
+  dictionary.Erase("ITK_original_spacing");
+  dictionary.Erase("ITK_original_direction");
+  imageIO.SetMetaDataDictionary(dictionary);
+}
+
+/** A reader for what was written, its header read and compared with what was to be written. */
+itk::ImageIOBase::Pointer
+OpenWrittenFile(const std::string & file, const itk::ImageIOBase & writer)
+{
+  const auto reader = itk::ImageIOFactory::CreateImageIO(file.c_str(), itk::IOFileModeEnum::ReadMode);
+  if (reader.IsNull())
+  {
+    throw std::runtime_error("what was written cannot be read back");
+  }
+  reader->SetFileName(file);
+  reader->ReadImageInformation();
+  if (reader->GetImageSizeInPixels() != writer.GetImageSizeInPixels())
+  {
+    throw std::runtime_error("only a part of the image was written");
+  }
+  CheckFileIsWhole(file, *reader);
+  return reader;
+}
+
+/** Whether the values in a file are these. */
+bool
+HasValues(itk::ImageIOBase & reader, const itk::ImageIOBase & writer, const void * values)
+{
+  const auto bytes = static_cast<std::size_t>(reader.GetImageSizeInBytes());
+  if (reader.GetComponentType() != writer.GetComponentType() ||
+      bytes != static_cast<std::size_t>(writer.GetImageSizeInBytes()))
+  {
+    return false;
+  }
+  itk::ImageIORegion region(reader.GetNumberOfDimensions());
+  for (unsigned int axis = 0; axis < reader.GetNumberOfDimensions(); ++axis)
+  {
+    region.SetSize(axis, reader.GetDimensions(axis));
+  }
+  std::vector<char> back(bytes);
+  reader.SetIORegion(region);
+  reader.Read(back.data());
+  return std::memcmp(back.data(), values, bytes) == 0;
+}
+
+/** Small whole numbers in a row, in the type of the file. */
+std::vector<char>
+MakeTestValues(std::size_t count, PixelComponent component)
+{
+  std::vector<float> numbers(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    numbers[i] = static_cast<float>(i % 101);
+  }
+  std::vector<char> values(count * GetPixelComponentSize(component));
+  ConvertReals(numbers.data(), count, component, values.data());
+  return values;
+}
 } // namespace
 
 OutputImage::OutputImage(const std::string & path, bool compress)
   : m_Path(path)
+  , m_Compress(compress)
+  , m_ImageIO(this->MakeImageIO())
+{}
+
+itk::ImageIOBase::Pointer
+OutputImage::MakeImageIO() const
 {
-  m_ImageIO = itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::IOFileModeEnum::WriteMode);
-  if (m_ImageIO.IsNull())
+  const auto imageIO = itk::ImageIOFactory::CreateImageIO(m_Path.c_str(), itk::IOFileModeEnum::WriteMode);
+  if (imageIO.IsNull())
   {
-    throw std::runtime_error("cannot write " + path + ": no known image format has the ending '" +
-                             fs::path(path).extension().string() + "'");
+    throw std::runtime_error("cannot write " + m_Path + ": no known image format has the ending '" +
+                             fs::path(m_Path).extension().string() + "'");
   }
-  m_ImageIO->SetUseCompression(compress);
+  imageIO->SetUseCompression(m_Compress);
+  return imageIO;
 }
 
 bool
@@ -88,36 +195,51 @@ OutputImage::GetWriterBytes(std::uint64_t imageBytes) const
   return this->CanStream() ? 0 : 2 * imageBytes;
 }
 
+bool
+OutputImage::Try(const ImageGrid & grid, PixelComponent component, const InputImage & input) const
+{
+  ImageGrid small = grid;
+  for (itk::SizeValueType & size : small.Size)
+  {
+    size = std::min<itk::SizeValueType>(size, 32);
+  }
+  const std::vector<char> values =
+    MakeTestValues(GetNumberOfVoxels(small.Size) * input.NumberOfComponents, component);
+  const std::string file = m_Folder->GetFileName().string();
+  bool              isLossless = false;
+  try
+  {
+    const ImageIOPointer imageIO = this->MakeImageIO();
+    Describe(*imageIO, small, component, input);
+    imageIO->SetFileName(file);
+    imageIO->SetIORegion(GetWholeRegion(small));
+    imageIO->Write(values.data());
+    isLossless = HasValues(*OpenWrittenFile(file, *imageIO), *imageIO, values.data());
+  }
+  catch (const std::exception & error)
+  {
+    throw std::runtime_error("cannot write " + m_Path + ", an image with " + std::to_string(grid.Size.size()) +
+                             " axes and voxels of " + std::to_string(input.NumberOfComponents) + " x " +
+                             GetPixelComponentName(component) + ": " + GetReason(error));
+  }
+  m_Folder->Clear();
+  return isLossless;
+}
+
 void
 OutputImage::Begin(const ImageGrid & grid, PixelComponent component, const InputImage & input)
 {
-  const auto dimension = static_cast<unsigned int>(grid.Size.size());
-  if (!m_ImageIO->SupportsDimension(dimension))
-  {
-    throw std::runtime_error("cannot write " + m_Path + ": its format does not hold images with " +
-                             std::to_string(dimension) + " axes");
-  }
   m_Folder = std::make_unique<TemporaryFolder>(m_Path);
-  m_ImageIO->SetFileName(m_Folder->GetFileName().string());
-  m_ImageIO->SetNumberOfDimensions(dimension);
-  std::uint64_t bytes = GetPixelComponentSize(component) * input.NumberOfComponents;
-  for (unsigned int axis = 0; axis < dimension; ++axis)
-  {
-    m_ImageIO->SetDimensions(axis, grid.Size[axis]);
-    m_ImageIO->SetSpacing(axis, grid.Spacing[axis]);
-    m_ImageIO->SetOrigin(axis, grid.Origin[axis]);
-    m_ImageIO->SetDirection(axis, grid.Directions[axis]);
-    bytes *= grid.Size[axis];
-  }
-  m_ImageIO->SetComponentType(component);
-  m_ImageIO->SetNumberOfComponents(input.NumberOfComponents);
-  m_ImageIO->SetPixelType(input.ImageIO->GetPixelType());
-  m_ImageIO->SetMetaDataDictionary(input.ImageIO->GetMetaDataDictionary());
-  m_ImageIO->SetUseStreamedWriting(this->CanStream());
   if (this->CanStream())
   {
-    CheckDiskSpace(m_Folder->GetFileName().parent_path(), bytes);
+    CheckDiskSpace(m_Path,
+                   m_Folder->GetFileName().parent_path(),
+                   GetNumberOfVoxels(grid.Size) * input.NumberOfComponents * GetPixelComponentSize(component));
   }
+  m_IsLossless = this->Try(grid, component, input);
+  Describe(*m_ImageIO, grid, component, input);
+  m_ImageIO->SetFileName(m_Folder->GetFileName().string());
+  m_ImageIO->SetUseStreamedWriting(this->CanStream());
 }
 
 void
@@ -129,31 +251,42 @@ OutputImage::Write(const itk::ImageIORegion & region, const void * values)
   try
   {
     m_ImageIO->Write(values);
-  }
-  catch (const itk::ExceptionObject & error)
-  {
-    throw std::runtime_error("cannot write " + m_Path + ": " + error.GetDescription());
-  }
-  if (isFirst)
-  {
-    for (const auto & entry : fs::directory_iterator(file.parent_path()))
+    if (isFirst)
     {
-      ReserveBlocks(entry.path());
+      for (const auto & entry : fs::directory_iterator(file.parent_path()))
+      {
+        ReserveBlocks(entry.path());
+      }
     }
+    if (!this->CanStream())
+    {
+      this->Verify(values);
+    }
+  }
+  catch (const std::exception & error)
+  {
+    throw std::runtime_error("cannot write " + m_Path + ": " + GetReason(error));
+  }
+}
+
+void
+OutputImage::Verify(const void * values) const
+{
+  m_Folder->CheckThatAllWasWritten();
+  const ImageIOPointer reader = OpenWrittenFile(m_Folder->GetFileName().string(), *m_ImageIO);
+  if (m_IsLossless && !HasValues(*reader, *m_ImageIO, values))
+  {
+    throw std::runtime_error("not all voxels were written");
   }
 }
 
 void
 OutputImage::Commit()
 {
-  const std::string file = m_Folder->GetFileName().string();
-  const auto reader = itk::ImageIOFactory::CreateImageIO(file.c_str(), itk::IOFileModeEnum::ReadMode);
-  if (reader.IsNull())
+  if (this->CanStream())
   {
-    throw std::runtime_error("cannot write " + m_Path + ": what was written cannot be read back");
+    m_Folder->CheckThatAllWasWritten();
+    OpenWrittenFile(m_Folder->GetFileName().string(), *m_ImageIO);
   }
-  reader->SetFileName(file);
-  reader->ReadImageInformation();
-  CheckFileIsWhole(file, *reader);
   m_Folder->Commit();
 }

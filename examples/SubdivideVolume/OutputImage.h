@@ -48,8 +48,25 @@ public:
   Commit();
 
 private:
+  using ImageIOPointer = itk::ImageIOBase::Pointer;
+
+  /** A writer for files of the output's kind. */
+  ImageIOPointer
+  MakeImageIO() const;
+
+  /** Writes a small image of the same kind and reads it back: the formats do not say what they can hold, and some
+   * writers drop what they cannot. Returns whether the values came back unchanged. */
+  bool
+  Try(const ImageGrid & grid, PixelComponent component, const InputImage & input) const;
+
+  /** Reads the file back as far as it must, to be sure that all was written. */
+  void
+  Verify(const void * values) const;
+
   std::string                      m_Path;
-  itk::ImageIOBase::Pointer        m_ImageIO;
+  bool                             m_Compress;
+  ImageIOPointer                   m_ImageIO;
+  bool                             m_IsLossless = false;
   std::unique_ptr<TemporaryFolder> m_Folder;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Progress.h"
+#include "LibraryMessages.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -22,7 +23,7 @@ Progress::~Progress()
 {
   if (m_LineIsOpen)
   {
-    std::fprintf(stderr, "\n");
+    std::fprintf(GetTerminal(), "\n");
   }
 }
 
@@ -42,12 +43,13 @@ Progress::Update(double fraction)
     {
       constexpr int     width = 40;
       const std::string done(percent * width / 100, '#');
-      std::fprintf(stderr, "\r[%-*s] %3d %%", width, done.c_str(), percent);
+      std::fprintf(GetTerminal(), "\r[%-*s] %3d %%", width, done.c_str(), percent);
+      std::fflush(GetTerminal());
       m_LineIsOpen = true;
       break;
     }
     case Style::Lines:
-      std::fprintf(stderr, "%d %%\n", percent);
+      std::fprintf(GetTerminal(), "%d %%\n", percent);
       break;
     case Style::Slicer:
       std::printf("<filter-progress>%g</filter-progress>\n", percent / 100.0);
@@ -71,7 +73,7 @@ Progress::Finish()
   }
   if (m_LineIsOpen)
   {
-    std::fprintf(stderr, "\n");
+    std::fprintf(GetTerminal(), "\n");
     m_LineIsOpen = false;
   }
 }

@@ -49,33 +49,6 @@ BringToDisk(const fs::path & file, const fs::path & output)
     Fail(output, error);
   }
 }
-/** Some formats' writers do not tell of a write that failed. It failed because the disk is full, and then there is no
- * room for another file either, or because the file reached its size limit. */
-void
-CheckThatAllWasWritten(const fs::path & folder, const fs::path & output)
-{
-  const fs::path          probe = folder / "probe";
-  const std::vector<char> bytes(1 << 16, 1);
-  const int               descriptor = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-  errno = ENOSPC;
-  const auto written = descriptor < 0 ? -1 : write(descriptor, bytes.data(), bytes.size());
-  const int  error = errno;
-  close(descriptor);
-  fs::remove(probe);
-  if (written != static_cast<ssize_t>(bytes.size()))
-  {
-    Fail(output, error);
-  }
-  rlimit limit = {};
-  getrlimit(RLIMIT_FSIZE, &limit);
-  for (const fs::directory_entry & entry : fs::directory_iterator(folder))
-  {
-    if (limit.rlim_cur != RLIM_INFINITY && entry.file_size() >= limit.rlim_cur)
-    {
-      Fail(output, EFBIG);
-    }
-  }
-}
 } // namespace
 
 TemporaryFolder::TemporaryFolder(const fs::path & output)
@@ -115,9 +88,43 @@ TemporaryFolder::GetFileName() const
 }
 
 void
+TemporaryFolder::CheckThatAllWasWritten() const
+{
+  const fs::path          probe = m_Folder / "probe";
+  const std::vector<char> bytes(1 << 16, 1);
+  const int               descriptor = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  errno = ENOSPC;
+  const auto written = descriptor < 0 ? -1 : write(descriptor, bytes.data(), bytes.size());
+  const int  error = errno;
+  close(descriptor);
+  fs::remove(probe);
+  if (written != static_cast<ssize_t>(bytes.size()))
+  {
+    throw std::runtime_error(std::strerror(error));
+  }
+  rlimit limit = {};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  for (const fs::directory_entry & entry : fs::directory_iterator(m_Folder))
+  {
+    if (limit.rlim_cur != RLIM_INFINITY && entry.file_size() >= limit.rlim_cur)
+    {
+      throw std::runtime_error(std::strerror(EFBIG));
+    }
+  }
+}
+
+void
+TemporaryFolder::Clear()
+{
+  for (const fs::directory_entry & entry : fs::directory_iterator(m_Folder))
+  {
+    fs::remove_all(entry.path());
+  }
+}
+
+void
 TemporaryFolder::Commit()
 {
-  CheckThatAllWasWritten(m_Folder, m_Output);
   std::vector<fs::path> names;
   for (const fs::directory_entry & entry : fs::directory_iterator(m_Folder))
   {

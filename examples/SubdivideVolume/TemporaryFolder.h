@@ -22,6 +22,16 @@ public:
   std::filesystem::path
   GetFileName() const;
 
+  /** Some formats' writers do not tell of a write that failed. It failed because the disk is full, and then there is no
+   * room for another file either, or because a file reached its size limit.
+   * \throw std::runtime_error */
+  void
+  CheckThatAllWasWritten() const;
+
+  /** Removes all files. */
+  void
+  Clear();
+
   /** Brings all files to the disk and renames them, the named output last.
    * \throw std::runtime_error if the disk is full or another file stands in the way */
   void

@@ -44,7 +44,8 @@ def run(command, **options):
     except FileNotFoundError:
         sys.exit(f"{command[0]}: not found")
     except subprocess.CalledProcessError as error:
-        sys.exit(f"{command[0]} failed: {error.stderr.strip()}")
+        last_line = (error.stderr.strip().splitlines() or ["no message"])[-1]
+        sys.exit(f"{command[0]} ended with {error.returncode}: {last_line}")
 
 
 def benchmark_command(arguments, repetitions):

@@ -63,7 +63,7 @@ def ensure_display():
     if not shutil.which("Xvfb"):
         raise common.ProgramError("no X11 display to draw on: set DISPLAY, or install Xvfb")
     server = subprocess.Popen(
-        ["Xvfb", "-displayfd", "1", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
+        ["Xvfb", "-displayfd", "1", "-noreset", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
     )

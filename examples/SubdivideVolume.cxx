@@ -25,11 +25,13 @@ enum ExitCode
   WrongUsage = 2
 };
 
-int
+[[noreturn]] void
 Fail(ExitCode code, const std::string & message)
 {
   std::fprintf(GetTerminal(), "SubdivideVolume: %s\n", MakeOneLine(message).c_str());
-  return code;
+  std::fflush(nullptr);
+  // Not by way of the libraries' own ends: after a failed write, HDF5 complains at length there.
+  _exit(code);
 }
 
 void
@@ -52,7 +54,7 @@ GetProgressStyle(const Options & options)
   {
     return Progress::Style::None;
   }
-  return isatty(STDERR_FILENO) ? Progress::Style::Bar : Progress::Style::Lines;
+  return isatty(fileno(GetTerminal())) ? Progress::Style::Bar : Progress::Style::Lines;
 }
 
 template <typename T>
@@ -159,14 +161,14 @@ main(int argc, char * argv[])
   }
   catch (const UsageError & error)
   {
-    return Fail(WrongUsage, std::string(error.what()) + " (see --help)");
+    Fail(WrongUsage, std::string(error.what()) + " (see --help)");
   }
   catch (const std::bad_alloc &)
   {
-    return Fail(RunFailed, "there is not enough memory; try --memory or --streams, with .mha or .mhd files");
+    Fail(RunFailed, "there is not enough memory; try --memory or --streams, with .mha or .mhd files");
   }
   catch (const std::exception & error)
   {
-    return Fail(RunFailed, error.what());
+    Fail(RunFailed, error.what());
   }
 }

@@ -13,6 +13,7 @@ namespace
 {
 std::mutex            InterruptMutex;
 std::filesystem::path FolderToRemove;
+std::filesystem::path UnfinishedOutput;
 
 /** The signals that end the program, less those that its parent had it ignore (as nohup does). */
 sigset_t
@@ -60,7 +61,8 @@ DieOf(int signal)
 DieOfAnException()
 {
   RemoveFolder();
-  std::fprintf(GetTerminal(), "SubdivideVolume: an image library failed; is the disk full?\n");
+  std::fprintf(GetTerminal(), "SubdivideVolume: cannot write %s: the image library failed; is the disk full?\n",
+               UnfinishedOutput.c_str());
   _exit(1);
 }
 
@@ -95,7 +97,10 @@ HoldInterrupts()
 }
 
 void
-RemoveWhenInterrupted(const InterruptLock &, const std::filesystem::path & folder)
+RemoveWhenInterrupted(const InterruptLock &,
+                      const std::filesystem::path & folder,
+                      const std::filesystem::path & output)
 {
   FolderToRemove = folder;
+  UnfinishedOutput = output;
 }

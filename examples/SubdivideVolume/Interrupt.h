@@ -18,8 +18,11 @@ using InterruptLock = std::unique_lock<std::mutex>;
 InterruptLock
 HoldInterrupts();
 
-/** The folder to remove when the program is interrupted; empty for none. The lock is the proof that none comes now. */
+/** The folder to remove when the program is interrupted, and the output that is written there; empty for none. The lock
+ * is the proof that no interrupt comes now. */
 void
-RemoveWhenInterrupted(const InterruptLock & lock, const std::filesystem::path & folder);
+RemoveWhenInterrupted(const InterruptLock &         lock,
+                      const std::filesystem::path & folder,
+                      const std::filesystem::path & output);
 
 #endif

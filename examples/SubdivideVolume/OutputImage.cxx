@@ -110,7 +110,7 @@ Describe(itk::ImageIOBase & imageIO, const ImageGrid & grid, PixelComponent comp
 
 /** A reader for what was written, its header read and compared with what was to be written. */
 itk::ImageIOBase::Pointer
-OpenWrittenFile(const std::string & file, const itk::ImageIOBase & writer)
+OpenWrittenFile(const std::string & file, itk::ImageIOBase::SizeType numberOfVoxels)
 {
   const auto reader = itk::ImageIOFactory::CreateImageIO(file.c_str(), itk::IOFileModeEnum::ReadMode);
   if (reader.IsNull())
@@ -119,7 +119,7 @@ OpenWrittenFile(const std::string & file, const itk::ImageIOBase & writer)
   }
   reader->SetFileName(file);
   reader->ReadImageInformation();
-  if (reader->GetImageSizeInPixels() != writer.GetImageSizeInPixels())
+  if (reader->GetImageSizeInPixels() != numberOfVoxels)
   {
     throw std::runtime_error("only a part of the image was written");
   }
@@ -129,11 +129,9 @@ OpenWrittenFile(const std::string & file, const itk::ImageIOBase & writer)
 
 /** Whether the values in a file are these. */
 bool
-HasValues(itk::ImageIOBase & reader, const itk::ImageIOBase & writer, const void * values)
+HasValues(itk::ImageIOBase & reader, PixelComponent component, const void * values, itk::ImageIOBase::SizeType bytes)
 {
-  const auto bytes = static_cast<std::size_t>(reader.GetImageSizeInBytes());
-  if (reader.GetComponentType() != writer.GetComponentType() ||
-      bytes != static_cast<std::size_t>(writer.GetImageSizeInBytes()))
+  if (reader.GetComponentType() != component || reader.GetImageSizeInBytes() != bytes)
   {
     return false;
   }
@@ -142,10 +140,10 @@ HasValues(itk::ImageIOBase & reader, const itk::ImageIOBase & writer, const void
   {
     region.SetSize(axis, reader.GetDimensions(axis));
   }
-  std::vector<char> back(bytes);
+  std::vector<char> back(static_cast<std::size_t>(bytes));
   reader.SetIORegion(region);
   reader.Read(back.data());
-  return std::memcmp(back.data(), values, bytes) == 0;
+  return std::memcmp(back.data(), values, back.size()) == 0;
 }
 
 /** Small whole numbers in a row, in the type of the file. */
@@ -209,12 +207,14 @@ OutputImage::Try(const ImageGrid & grid, PixelComponent component, const InputIm
   bool              isLossless = false;
   try
   {
-    const ImageIOPointer imageIO = this->MakeImageIO();
+    ImageIOPointer imageIO = this->MakeImageIO();
     Describe(*imageIO, small, component, input);
     imageIO->SetFileName(file);
     imageIO->SetIORegion(GetWholeRegion(small));
     imageIO->Write(values.data());
-    isLossless = HasValues(*OpenWrittenFile(file, *imageIO), *imageIO, values.data());
+    imageIO = nullptr; // some write the rest only now
+    isLossless = HasValues(
+      *OpenWrittenFile(file, GetNumberOfVoxels(small.Size)), component, values.data(), values.size());
   }
   catch (const std::exception & error)
   {
@@ -270,11 +270,15 @@ OutputImage::Write(const itk::ImageIORegion & region, const void * values)
 }
 
 void
-OutputImage::Verify(const void * values) const
+OutputImage::Verify(const void * values)
 {
+  const auto           numberOfVoxels = m_ImageIO->GetImageSizeInPixels();
+  const auto           bytes = m_ImageIO->GetImageSizeInBytes();
+  const PixelComponent component = m_ImageIO->GetComponentType();
+  m_ImageIO = this->MakeImageIO(); // some write the rest only when they are gone
   m_Folder->CheckThatAllWasWritten();
-  const ImageIOPointer reader = OpenWrittenFile(m_Folder->GetFileName().string(), *m_ImageIO);
-  if (m_IsLossless && !HasValues(*reader, *m_ImageIO, values))
+  const ImageIOPointer reader = OpenWrittenFile(m_Folder->GetFileName().string(), numberOfVoxels);
+  if (m_IsLossless && !HasValues(*reader, component, values, bytes))
   {
     throw std::runtime_error("not all voxels were written");
   }
@@ -285,8 +289,15 @@ OutputImage::Commit()
 {
   if (this->CanStream())
   {
-    m_Folder->CheckThatAllWasWritten();
-    OpenWrittenFile(m_Folder->GetFileName().string(), *m_ImageIO);
+    try
+    {
+      m_Folder->CheckThatAllWasWritten();
+      OpenWrittenFile(m_Folder->GetFileName().string(), m_ImageIO->GetImageSizeInPixels());
+    }
+    catch (const std::exception & error)
+    {
+      throw std::runtime_error("cannot write " + m_Path + ": " + GetReason(error));
+    }
   }
   m_Folder->Commit();
 }

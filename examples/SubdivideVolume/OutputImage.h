@@ -61,7 +61,7 @@ private:
 
   /** Reads the file back as far as it must, to be sure that all was written. */
   void
-  Verify(const void * values) const;
+  Verify(const void * values);
 
   std::string                      m_Path;
   bool                             m_Compress;

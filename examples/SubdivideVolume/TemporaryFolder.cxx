@@ -70,7 +70,7 @@ TemporaryFolder::TemporaryFolder(const fs::path & output)
     Fail(output, errno);
   }
   m_Folder = pattern;
-  RemoveWhenInterrupted(lock, m_Folder);
+  RemoveWhenInterrupted(lock, m_Folder, m_Output);
 }
 
 TemporaryFolder::~TemporaryFolder()
@@ -78,7 +78,7 @@ TemporaryFolder::~TemporaryFolder()
   std::error_code error;
   const auto      lock = HoldInterrupts();
   fs::remove_all(m_Folder, error);
-  RemoveWhenInterrupted(lock, {});
+  RemoveWhenInterrupted(lock, {}, {});
 }
 
 fs::path

@@ -143,13 +143,19 @@ def new_figure(columns=1, rows=1, width=3.4, height=3.4):
     return plt.subplots(rows, columns, figsize=(width * columns, height * rows), squeeze=False)
 
 
-def save_figure(figure, output_folder, file):
-    """Write FILE (a PNG of 256 colours: a third of the bytes) into the output folder and return its name."""
+def save_figure(figure, output_folder, file, dither=False):
+    """Write FILE (a PNG of 256 colours: a third of the bytes) into the output folder and return its name.
+
+    dither: for pictures with more colours than that, such as shaded surfaces.
+    """
     rendered = io.BytesIO()
     figure.savefig(rendered, format="png")
     plt.close(figure)
-    picture = Image.open(rendered).convert("RGB").quantize(256, dither=Image.Dither.NONE)
-    picture.save(pathlib.Path(output_folder) / file, optimize=True)
+    picture = Image.open(rendered).convert("RGB")
+    reduced = picture.quantize(256, dither=Image.Dither.NONE)
+    if dither:
+        reduced = picture.quantize(palette=reduced, dither=Image.Dither.FLOYDSTEINBERG)
+    reduced.save(pathlib.Path(output_folder) / file, optimize=True)
     return file
 
 

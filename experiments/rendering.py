@@ -2,7 +2,6 @@
 """Coloured meshes side by side in one picture: VTK draws them without a screen, Matplotlib lays them out."""
 import atexit
 import os
-import pathlib
 import shutil
 import subprocess
 from dataclasses import dataclass
@@ -135,7 +134,4 @@ def draw(panels, view, scale, columns, output_folder, file):
         axes.imshow(render(panel, its_view, scale))
         axes.set_title(panel.title)
     figure.colorbar(scale.mappable(), ax=grid, label=scale.label, shrink=0.8)
-    # In full colour: with save_figure's 256 colours the colour scale would have steps.
-    figure.savefig(pathlib.Path(output_folder) / file)
-    common.plt.close(figure)
-    return file
+    return common.save_figure(figure, output_folder, file, dither=True)

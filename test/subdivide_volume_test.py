@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs SubdivideVolume as a user does; the environment variable SUBDIVIDE_VOLUME holds the path of the program."""
 
+import filecmp
 import math
 import os
 import pty
 import random
 import re
 import subprocess
+import sys
 import unittest
 import xml.etree.ElementTree
 
@@ -64,7 +66,8 @@ class Results(ProgramTest):
             padded = [value(i) for i in range(-width, size + width)]
             write_meta(self.path("padded.mha"), [len(padded), 2], "f", padded * 2)
             reference = self.meta("padded.mha", "outpadded.mha", "--axes", "x")
-            self.assertEqual(list(out.values[:2 * size]), list(reference.values[2 * width:2 * (width + size)]), boundary)
+            expected = list(reference.values[2 * width:2 * (width + size)])
+            self.assertEqual(list(out.values[:2 * size]), expected, boundary)
 
     def test_axes_keep_their_grid_unless_they_are_subdivided(self):
         write_meta(self.path("in.mha"), [6, 5, 4], "h", noise(120), spacing=[1, 2, 4])
@@ -157,15 +160,16 @@ class Streaming(ProgramTest):
             self.assertEqual(self.meta("in.mha", "out.mha", "--boundary", boundary, "--threads", 5).data, whole)
 
     def test_other_dimensions_components_and_files_stream(self):
-        images = {"flat.mha": ([40, 30], "f", 1), "series.mha": ([6, 5, 4, 5], "h", 1), "vectors.mha": ([6, 5, 7], "B", 4),
-                  "real.mha": ([9, 8, 7], "d", 1)}
+        images = {"flat.mha": ([40, 30], "f", 1), "series.mha": ([6, 5, 4, 5], "h", 1),
+                  "vectors.mha": ([6, 5, 7], "B", 4), "real.mha": ([9, 8, 7], "d", 1)}
         for name, (size, pixel, channels) in images.items():
             write_meta(self.path(name), size, pixel, noise(math.prod(size) * channels, 0, 256), channels=channels)
             whole = self.meta(name, "out.mha", "--output-type", "int16").data
             self.assertEqual(self.meta(name, "out.mha", "--output-type", "int16", "--streams", 9).data, whole)
             self.assertEqual(self.meta(name, "out.mhd", "--output-type", "int16", "--streams", 9).data, whole)
             self.assertEqual(Meta(self.path("out.mhd")).fields["ElementDataFile"], "out.raw")
-            self.assertEqual(self.meta("out.mhd", "again.mhd", "--streams", 5).data, self.meta("out.mha", "again.mha").data)
+            again = self.meta("out.mha", "again.mha").data
+            self.assertEqual(self.meta("out.mhd", "again.mhd", "--streams", 5).data, again)
 
     def test_an_output_in_place_of_its_input(self):
         for ending in ("mha", "mhd"):
@@ -183,6 +187,9 @@ class Streaming(ProgramTest):
         self.assertEqual(Meta(self.path("target.mha")).size, [8, 8])
 
     def test_a_memory_budget_is_kept(self):
+        with open(PROGRAM, "rb") as file:
+            if re.search(b"__(asan|tsan)_init", file.read()):
+                self.skipTest("sanitizers take memory of their own")
         side, budget = 240, 150 * 10 ** 6
         with open(self.path("in.mha"), "wb") as file:
             file.write(meta_header([side] * 3, "H"))
@@ -193,11 +200,12 @@ class Streaming(ProgramTest):
         peaks = []
         for name, arguments in (("whole.mha", ["--streams", 1]), ("pieces.mha", ["--memory", "150M"])):
             command = [PROGRAM, self.path("in.mha"), self.path(name), "--quiet", "--threads", 2, *arguments]
-            measured = subprocess.run(["python3", "-c", code, *map(str, command)], capture_output=True, text=True, check=True)
+            measured = subprocess.run([sys.executable, "-c", code, *map(str, command)], capture_output=True, text=True,
+                                      check=True)
             peaks.append(1024 * int(measured.stdout))
         self.assertGreater(peaks[0], budget, "the image is too small for this test")
         self.assertLess(peaks[1], budget)
-        self.assertEqual(subprocess.run(["cmp", self.path("whole.mha"), self.path("pieces.mha")], check=False).returncode, 0)
+        self.assertTrue(filecmp.cmp(self.path("whole.mha"), self.path("pieces.mha"), shallow=False))
 
     def test_a_budget_that_cannot_be_kept_is_an_error(self):
         write_meta(self.path("in.mha"), [100, 100, 100], "B", bytes(10 ** 6))
@@ -209,7 +217,8 @@ class Streaming(ProgramTest):
         write_meta(self.path("in.mha"), [6, 5, 4], "h", noise(120))
         write_compressed_meta(self.path("compressed.mha"), [6, 5, 4], "h", noise(120))
         whole = self.meta("in.mha", "whole.mha").data
-        for names, words in ((("in.mha", "out.nrrd"), "cannot be written"), (("compressed.mha", "out.mha"), "cannot be read")):
+        for names, words in ((("in.mha", "out.nrrd"), "cannot be written"),
+                             (("compressed.mha", "out.mha"), "cannot be read")):
             result = self.run_program(*map(self.path, names), "--streams", 3)
             self.assertEqual(result.returncode, 0)
             self.assertIn("SubdivideVolume: warning: ", result.stderr)
@@ -258,7 +267,7 @@ class Files(ProgramTest):
         write_meta(self.path("in.mha"), [6, 5, 4], "h", noise(120), spacing=[1, 2, 4], more=more)
         out = self.meta("in.mha", "out.mha")
         self.assertEqual(out.numbers("TransformMatrix"), [0, 1, 0, -1, 0, 0, 0, 0, 1])
-        # The first index lies a quarter of a voxel further along x, which runs along the second physical axis, and so on.
+        # The first index lies a quarter of a voxel before the old one along each axis of the image.
         self.assertEqual(out.numbers("Offset"), [10 + 2 / 4, 20 - 1 / 4, 30 - 4 / 4])
         self.assertNotIn("ITK_original_spacing", out.fields)
         write_nrrd(self.path("in.nrrd"), [6, 5, 4], "h", noise(120), more=["Patient:=a phantom"])
@@ -302,7 +311,8 @@ class Messages(ProgramTest):
         result = self.subdivide("in.mha", "out.mha", "--streams", 4)
         self.assertRegex(result.stderr, r"\A(\d+0? %\n)+\Z")
         self.assertEqual(result.stderr.splitlines()[-1], "100 %")
-        self.assertRegex(result.stdout, r"\Ainput .*6 x 5 x 4 int16.*\noutput .*12 x 10 x 8 int16.*\ntime .*4 pieces\n\Z")
+        self.assertRegex(result.stdout,
+                         r"\Ainput .*6 x 5 x 4 int16.*\noutput .*12 x 10 x 8 int16.*\ntime .*4 pieces\n\Z")
 
     def test_a_bar_on_a_terminal(self):
         controller, terminal = pty.openpty()

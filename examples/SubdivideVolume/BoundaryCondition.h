@@ -22,9 +22,10 @@ ParseComponent(const std::string & text)
 {
   const double value = std::stod(text);
   // The bounds are powers of two, so they are exact; the largest 64-bit integer is not a double, but one below it is.
-  const bool isOne = std::is_floating_point_v<TComponent> ||
-                     (value == std::floor(value) && value >= static_cast<double>(std::numeric_limits<TComponent>::min()) &&
-                      value < std::ldexp(1.0, std::numeric_limits<TComponent>::digits));
+  const bool isOne =
+    std::is_floating_point_v<TComponent> ||
+    (value == std::floor(value) && value >= static_cast<double>(std::numeric_limits<TComponent>::min()) &&
+     value < std::ldexp(1.0, std::numeric_limits<TComponent>::digits));
   if (!isOne)
   {
     throw std::runtime_error("the boundary value " + text + " is not one that a voxel of this image can have");
@@ -50,8 +51,8 @@ MakeBoundaryCondition(const std::string & name, unsigned int numberOfComponents)
   {
     return std::make_unique<itk::PeriodicBoundaryCondition<TImage>>();
   }
-  const auto value = ParseComponent<ComponentType>(name);
-  auto       condition = std::make_unique<itk::ConstantBoundaryCondition<TImage>>();
+  const auto                 value = ParseComponent<ComponentType>(name);
+  auto                       condition = std::make_unique<itk::ConstantBoundaryCondition<TImage>>();
   typename TImage::PixelType pixel{};
   itk::NumericTraits<typename TImage::PixelType>::SetLength(pixel, numberOfComponents);
   pixel = pixel + value;

@@ -61,7 +61,8 @@ DieOf(int signal)
 DieOfAnException()
 {
   RemoveFolder();
-  std::fprintf(GetTerminal(), "SubdivideVolume: cannot write %s: the image library failed; is the disk full?\n",
+  std::fprintf(GetTerminal(),
+               "SubdivideVolume: cannot write %s: the image library failed; is the disk full?\n",
                UnfinishedOutput.c_str());
   _exit(1);
 }
@@ -97,9 +98,7 @@ HoldInterrupts()
 }
 
 void
-RemoveWhenInterrupted(const InterruptLock &,
-                      const std::filesystem::path & folder,
-                      const std::filesystem::path & output)
+RemoveWhenInterrupted(const InterruptLock &, const std::filesystem::path & folder, const std::filesystem::path & output)
 {
   FolderToRemove = folder;
   UnfinishedOutput = output;

@@ -6,9 +6,9 @@
 #include <mutex>
 
 /** Lets a thread wait for the signals that end the program (interrupt, terminate, hang up), so that it can remove the
- * unfinished output first. To be called at the start of the program, before any other thread exists. A full disk, a file
- * size limit and a closed pipe become errors of the writing function instead of signals. An exception that a library lets
- * escape from where none may ends the program as cleanly. */
+ * unfinished output first. To be called at the start of the program, before any other thread exists. A file size limit
+ * and a closed pipe become errors of the writing function instead of signals. An exception that a library lets escape
+ * from where none may ends the program as cleanly. */
 void
 WatchForInterrupts();
 

@@ -11,7 +11,8 @@ std::FILE *
 GetTerminal();
 
 /** Keeps from the terminal what the image libraries print while they read and write: errors reach the user as
- * exceptions, in one line, and 3D Slicer reads stdout. The program itself prints with std::printf and to GetTerminal(). */
+ * exceptions, in one line, and 3D Slicer reads stdout. The program itself prints with std::printf and to
+ * GetTerminal(). */
 class LibraryMessages
 {
 public:

@@ -23,7 +23,8 @@ MemoryPlan::GetPeakBytes(const std::vector<ImageRegion> & pieces) const
   {
     const PieceBytes bytes = this->GetPieceBytes(piece);
     // The filter, the reader and the writer take turns.
-    peak = std::max(peak, bytes.Kept + std::max({ NumberOfThreads * ScratchBytesPerThread, bytes.Reader, bytes.Writer }));
+    peak =
+      std::max(peak, bytes.Kept + std::max({ NumberOfThreads * ScratchBytesPerThread, bytes.Reader, bytes.Writer }));
   }
   return GetResidentBytes() + SpareBytes + peak;
 }

@@ -19,9 +19,9 @@ struct PieceBytes
 /** Chooses the pieces so that the process stays within its memory. */
 struct MemoryPlan
 {
-  ImageRegion                                     Whole;
-  bool                                            OutputStreams = false;
-  unsigned int                                    NumberOfThreads = 1;
+  ImageRegion                                    Whole;
+  bool                                           OutputStreams = false;
+  unsigned int                                   NumberOfThreads = 1;
   std::function<PieceBytes(const ImageRegion &)> GetPieceBytes;
 
   /** The pieces that the options ask for.

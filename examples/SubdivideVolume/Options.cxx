@@ -66,8 +66,9 @@ AddOptions(CLI::App & app, Options & options)
   app.add_option("--series", options.Series, "The DICOM series, by its UID, where the folder holds several");
   app.add_option("--threads", options.Threads, "Number of threads (default: all processors)")
     ->check(CLI::Range(1u, 1024u));
-  auto * streams = app.add_option("--streams", options.Streams, "Work in at least this many pieces, one after the other")
-                     ->check(CLI::Range(1u, 1000000u));
+  auto * streams =
+    app.add_option("--streams", options.Streams, "Work in at least this many pieces, one after the other")
+      ->check(CLI::Range(1u, 1000000u));
   app.add_option("--memory", options.Memory, "Work in so many pieces that this much memory is enough, such as 500M")
     ->transform(CLI::AsSizeValue(true))
     ->check(CLI::PositiveNumber)

@@ -201,10 +201,9 @@ OutputImage::Try(const ImageGrid & grid, PixelComponent component, const InputIm
   {
     size = std::min<itk::SizeValueType>(size, 32);
   }
-  const std::vector<char> values =
-    MakeTestValues(GetNumberOfVoxels(small.Size) * input.NumberOfComponents, component);
-  const std::string file = m_Folder->GetFileName().string();
-  bool              isLossless = false;
+  const std::vector<char> values = MakeTestValues(GetNumberOfVoxels(small.Size) * input.NumberOfComponents, component);
+  const std::string       file = m_Folder->GetFileName().string();
+  bool                    isLossless = false;
   try
   {
     ImageIOPointer imageIO = this->MakeImageIO();
@@ -213,8 +212,8 @@ OutputImage::Try(const ImageGrid & grid, PixelComponent component, const InputIm
     imageIO->SetIORegion(GetWholeRegion(small));
     imageIO->Write(values.data());
     imageIO = nullptr; // some write the rest only now
-    isLossless = HasValues(
-      *OpenWrittenFile(file, GetNumberOfVoxels(small.Size)), component, values.data(), values.size());
+    isLossless =
+      HasValues(*OpenWrittenFile(file, GetNumberOfVoxels(small.Size)), component, values.data(), values.size());
   }
   catch (const std::exception & error)
   {

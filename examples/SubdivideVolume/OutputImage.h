@@ -35,7 +35,7 @@ public:
   GetWriterBytes(std::uint64_t imageBytes) const;
 
   /** Sets all but the pixel values; the kind of pixel and the meta-data are those of the input.
-   * \throw std::runtime_error if the format cannot hold such an image, or the disk is too full, or may not be written */
+   * \throw std::runtime_error if the format cannot hold such an image, the disk is too full, or may not be written */
   void
   Begin(const ImageGrid & grid, PixelComponent component, const InputImage & input);
 

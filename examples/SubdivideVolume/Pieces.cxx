@@ -68,9 +68,9 @@ GetMaximumNumberOfPieces(const ImageRegion & whole)
 std::uint64_t
 GetResidentBytes()
 {
-  std::ifstream statistics("/proc/self/statm");
-  std::uint64_t size = 0;
-  std::uint64_t resident = 0;
+  std::ifstream           statistics("/proc/self/statm");
+  std::uint64_t           size = 0;
+  std::uint64_t           resident = 0;
   constexpr std::uint64_t guess = 100000000; // where there is no such file
   return statistics >> size >> resident ? resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : guess;
 }

@@ -11,13 +11,15 @@ GetSlicerDescription()
 <executable>
   <category>Filtering</category>
   <title>Subdivide Volume</title>
-  <description><![CDATA[Doubles the resolution of a volume with the non-oscillatory subdivision scheme: sixth-order accurate where the data is smooth, free of overshoots at isolated edges.]]></description>
+  <description><![CDATA[Doubles the resolution of a volume with the non-oscillatory subdivision scheme:
+sixth-order accurate where the data is smooth, free of overshoots at isolated edges.]]></description>
   <version>)" +
          GetProgramVersion() + R"(</version>
   <documentation-url></documentation-url>
   <license>Apache-2.0</license>
   <contributor></contributor>
-  <acknowledgements><![CDATA[M. Stock, S. Lopez-Urena, "Towards smoother surfaces by applying subdivision to voxel data".]]></acknowledgements>
+  <acknowledgements><![CDATA[M. Stock, S. Lopez-Urena, "Towards smoother surfaces by applying
+subdivision to voxel data".]]></acknowledgements>
   <parameters>
     <label>Volumes</label>
     <description><![CDATA[Input and output]]></description>
@@ -43,7 +45,8 @@ GetSlicerDescription()
       <name>scheme</name>
       <longflag>--scheme</longflag>
       <label>Scheme</label>
-      <description><![CDATA[nonoscillatory: no overshoots at isolated edges; linear: sharper, rings at edges; bounded: linear, clamped to the local range; bspline: the smoothest]]></description>
+      <description><![CDATA[nonoscillatory: no overshoots at isolated edges; linear: sharper, rings at edges;
+bounded: linear, clamped to the local range; bspline: the smoothest]]></description>
       <default>nonoscillatory</default>
       <element>nonoscillatory</element>
       <element>linear</element>
@@ -54,7 +57,8 @@ GetSlicerDescription()
       <name>tension</name>
       <longflag>--tension</longflag>
       <label>Tension</label>
-      <description><![CDATA[How close the non-oscillatory scheme keeps to the linear one; greater than 1]]></description>
+      <description><![CDATA[How close the non-oscillatory scheme keeps to the linear one;
+greater than 1]]></description>
       <default>2</default>
       <constraints>
         <minimum>1.01</minimum>

@@ -202,9 +202,9 @@ private:
   const void *
   GetOutputValues(PixelRange & range)
   {
-    const auto &       output = *m_Filter->GetOutput();
-    const std::size_t  count = output.GetBufferedRegion().GetNumberOfPixels() * m_Job.Input.NumberOfComponents;
-    const void *       values = output.GetBufferPointer();
+    const auto &      output = *m_Filter->GetOutput();
+    const std::size_t count = output.GetBufferedRegion().GetNumberOfPixels() * m_Job.Input.NumberOfComponents;
+    const void *      values = output.GetBufferPointer();
     if constexpr (std::is_floating_point_v<OutputComponentType>)
     {
       if (this->IsConverted())
@@ -231,14 +231,14 @@ private:
     m_Job.Output.Write(region, values);
   }
 
-  const SubdivisionJob &                                   m_Job;
-  typename itk::ImageSource<TInputImage>::Pointer          m_Reader;
+  const SubdivisionJob &                                    m_Job;
+  typename itk::ImageSource<TInputImage>::Pointer           m_Reader;
   std::unique_ptr<itk::ImageBoundaryCondition<TInputImage>> m_Boundary;
-  typename FilterType::Pointer                             m_Filter = FilterType::New();
-  std::size_t                                              m_Piece = 0;
-  std::size_t                                              m_NumberOfPieces = 1;
-  ImageRegion                                              m_InputRegion;
-  std::vector<char>                                        m_Converted;
+  typename FilterType::Pointer                              m_Filter = FilterType::New();
+  std::size_t                                               m_Piece = 0;
+  std::size_t                                               m_NumberOfPieces = 1;
+  ImageRegion                                               m_InputRegion;
+  std::vector<char>                                         m_Converted;
 };
 
 /** The filter writes the input's type or the real type that it computes with, and from there other types are converted

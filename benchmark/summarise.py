@@ -176,7 +176,7 @@ def main():
     print(f"- times: {'processor time of all threads' if arguments.processor_time else 'wall clock'}, medians\n")
     workloads, peaks = read_rows(results["benchmarks"], arguments.processor_time)
     for workload, memories in workloads.items():
-        print_workload(workload, memories, peaks[workload[2]], context)
+        print_workload(workload, memories, peaks.get(workload[2], {}), context)
     if arguments.spread:
         for workload, memories in workloads.items():
             print_spread(workload, memories)

@@ -5,7 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
 
 namespace
 {
@@ -18,11 +20,19 @@ CheckTension(const std::string & text)
            : "the tension must be finite and greater than 1, not " + text;
 }
 
+bool
+IsNumber(const std::string & text)
+{
+  char * end = nullptr;
+  errno = 0;
+  std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && errno != ERANGE;
+}
+
 std::string
 CheckBoundary(const std::string & text)
 {
-  double value = 0.0;
-  return text == "nearest" || text == "mirror" || text == "periodic" || CLI::detail::lexical_cast(text, value)
+  return text == "nearest" || text == "mirror" || text == "periodic" || IsNumber(text)
            ? std::string()
            : "the boundary must be nearest, mirror, periodic or a number, not " + text;
 }

@@ -102,9 +102,14 @@ InterleaveChildren(const float * lower, const float * upper, std::size_t count, 
   }
   if (x < count)
   {
-    // The rows of children are padded to whole vectors, the pixels are not.
-    TPixel last[2 * HWY_MAX_BYTES / sizeof(float)];
-    StoreChildren(hn::LoadU(FloatTag(), lower + x), hn::LoadU(FloatTag(), upper + x), last);
+    // Neither the rows nor the pixels need have room for a whole vector.
+    constexpr std::size_t mostLanes = HWY_MAX_BYTES / sizeof(float);
+    float                 lastLower[mostLanes] = {};
+    float                 lastUpper[mostLanes] = {};
+    TPixel                last[2 * mostLanes];
+    std::memcpy(lastLower, lower + x, (count - x) * sizeof(float));
+    std::memcpy(lastUpper, upper + x, (count - x) * sizeof(float));
+    StoreChildren(hn::LoadU(FloatTag(), lastLower), hn::LoadU(FloatTag(), lastUpper), last);
     std::memcpy(out + 2 * x, last, 2 * (count - x) * sizeof(TPixel));
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the wrapping of ITK for Python parses: the public headers, and the types to be wrapped, named and completed in the
-// namespace that it starts from.
+// What the wrapping of ITK for Python parses: the public headers, and the types to be wrapped, named and completed in
+// the namespace that it starts from.
 
 #include "itkImage.h"
 #include "itkImageFidelityCalculator.h"

@@ -23,7 +23,7 @@ STAGES = {
     "passes along lanes and across rows": r"::AdvanceValues",
     "bounds": r"::AdvanceNeighbours|::BoundChildren",
     "thresholds": r"::SumDifferencesOfRow|::WindowMinimumRow|::SecondDifferenceRow|::LimitRow"
-    r"|::LimitSecondDifferenceRow|::AdvanceSlope|::AdvanceSteepMinima",
+    r"|::AdvanceSlope|::AdvanceSteepMinima",
     "pass across planes": r"itk::\w+::ComputeChildren",
     "sweep": r"::AdvanceFlatFields|::AdvanceSteepFields|::AdvancePlane|SubdivisionKernel<",
     "tiles": r"NonOscillatorySubdivisionImageFilter",

@@ -7,10 +7,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
 #include <cstring>
 #include <limits>
-#include <new>
 #include <stdexcept>
 
 namespace itk
@@ -193,7 +191,6 @@ struct SubdivisionKernel<TReal>::Implementation
         ring(Sweep.SteepChildren[subset], plane);
         ring(Sweep.SteepMinima[subset], plane);
         Sweep.SlopeSums[subset] = plane();
-        rows.Sums[subset] = row();
         rows.Limited[subset] = row();
       }
       for (auto & children : Sweep.Children)
@@ -206,6 +203,9 @@ struct SubdivisionKernel<TReal>::Implementation
     ring(rows.Values[1], row);
     if (isThresholded)
     {
+      // The sums of the other subsets go where they are kept.
+      rows.Sums[LaneAxis] = row();
+      rows.Sums[BothAxesInPlane] = row();
       ring(rows.Slope, row);
       rows.RowDifference = row();
       rows.RowDifferenceSum = row();

@@ -167,8 +167,9 @@ struct ThresholdedRows
   FilterSecondDifferences(const AcrossRows<T, 1> & rowsAround, const TRowSums & rowSums, const TBothSums & bothSums)
   {
     SecondDifferenceRow(rowsAround, Begin - 1, End + 1, Buffers.RowCurvature);
-    LimitRow(Buffers.RowCurvature, rowSums, S.Tension, Begin, End, Buffers.Limited[RowAxis]);
-    LimitSecondDifferenceRow(Buffers.RowCurvature, bothSums, S.Tension, Begin, End, Buffers.Limited[BothAxesInPlane]);
+    LimitRow(RowValues<T>{ Buffers.RowCurvature }, rowSums, S.Tension, Begin, End, Buffers.Limited[RowAxis]);
+    LimitRow(
+      RowCurvature<T>{ Buffers.RowCurvature }, bothSums, S.Tension, Begin, End, Buffers.Limited[BothAxesInPlane]);
     Buffers.SecondDifferences[0].Rotate();
     Buffers.SecondDifferences[1].Rotate();
     FilterLanes(Buffers.Limited[RowAxis],
@@ -215,8 +216,12 @@ AdvanceFlatFields(SubdivisionSweep<T> & s)
   {
     const T * const row = plane + r * s.Pitch;
     rows.template SumRow<false>(row, row + s.Pitch, 0);
-    LimitSecondDifferenceRow(
-      row, AlongLanes<T>{ s.Rows.Sums[LaneAxis] }, s.Tension, rows.Begin, rows.End, s.Rows.Limited[LaneAxis]);
+    LimitRow(RowCurvature<T>{ row },
+             AlongLanes<T>{ s.Rows.Sums[LaneAxis] },
+             s.Tension,
+             rows.Begin,
+             rows.End,
+             s.Rows.Limited[LaneAxis]);
     rows.FilterValues(row, s.Rows.Limited[LaneAxis], s.FlatChildren);
     if (s.HasRowAxis && r - 2 >= -SecondDifferenceReach)
     {
@@ -299,18 +304,18 @@ AdvanceSteepFields(SubdivisionSweep<T> & s, const bool isWindowComplete)
     buffers.SweepCurvature.Rotate();
     const T * const curvature = buffers.SweepCurvature[0];
     SecondDifferenceRow(RowsAround<1>(s.Input, 2, here), rows.Begin - 1, rows.End + 1, buffers.SweepCurvature[0]);
-    LimitRow(curvature,
+    LimitRow(RowValues<T>{ curvature },
              RowsAround<2>(s.SteepMinima[NoAxisInPlane], 0, here),
              s.Tension,
              rows.Begin,
              rows.End,
              buffers.Limited[NoAxisInPlane]);
-    LimitSecondDifferenceRow(curvature,
-                             RowsAround<2>(s.SteepMinima[LaneAxis], 0, here),
-                             s.Tension,
-                             rows.Begin,
-                             rows.End,
-                             buffers.Limited[LaneAxis]);
+    LimitRow(RowCurvature<T>{ curvature },
+             RowsAround<2>(s.SteepMinima[LaneAxis], 0, here),
+             s.Tension,
+             rows.Begin,
+             rows.End,
+             buffers.Limited[LaneAxis]);
     rows.FilterValues(buffers.Limited[NoAxisInPlane], buffers.Limited[LaneAxis], s.SteepChildren);
     if (s.HasRowAxis && r - 2 >= -SecondDifferenceReach)
     {

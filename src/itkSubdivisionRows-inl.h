@@ -187,10 +187,36 @@ Limit(const TVector value, const TVector tension, const TVector threshold)
   return OrderedMin(bound, OrderedMax(Neg(bound), value));
 }
 
-/** The field limited by the window minimum of the sums. */
-template <typename T, typename TSums>
+/** A field that is the values of a row themselves. */
+template <typename T>
+struct RowValues
+{
+  const T * Row;
+
+  SUBDIVISION_INLINE Vector<T>
+                     operator()(std::ptrdiff_t x) const
+  {
+    return Load(Row + x);
+  }
+};
+
+/** A field that is the second differences along the lanes of a row. */
+template <typename T>
+struct RowCurvature
+{
+  const T * Row;
+
+  SUBDIVISION_INLINE Vector<T>
+                     operator()(std::ptrdiff_t x) const
+  {
+    return SecondDifference<T>(AlongLanes<T>{ Row }, x);
+  }
+};
+
+/** A field limited by the window minimum of the sums. */
+template <typename T, typename TField, typename TSums>
 SUBDIVISION_INLINE void
-LimitRow(const T * const __restrict values,
+LimitRow(const TField         field,
          const TSums          sums,
          const double         tension,
          const std::ptrdiff_t begin,
@@ -200,25 +226,7 @@ LimitRow(const T * const __restrict values,
   const auto factor = Broadcast<T>(tension);
   for (std::ptrdiff_t x = begin; x < end; x += LaneCount<T>())
   {
-    Store(Limit(Load(values + x), factor, WindowMinimum(sums, x)), result + x);
-  }
-}
-
-/** The second difference of the values along the lanes, limited by the window minimum of the sums. */
-template <typename T, typename TSums>
-SUBDIVISION_INLINE void
-LimitSecondDifferenceRow(const T * const __restrict values,
-                         const TSums          sums,
-                         const double         tension,
-                         const std::ptrdiff_t begin,
-                         const std::ptrdiff_t end,
-                         T * const __restrict result)
-{
-  const auto factor = Broadcast<T>(tension);
-  for (std::ptrdiff_t x = begin; x < end; x += LaneCount<T>())
-  {
-    const auto curvature = SecondDifference<T>(AlongLanes<T>{ values }, x);
-    Store(Limit(curvature, factor, WindowMinimum(sums, x)), result + x);
+    Store(Limit(field(x), factor, WindowMinimum(sums, x)), result + x);
   }
 }
 

@@ -469,7 +469,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(Kerne
   };
 
   // Rows are short: their memory is asked for before they are read or written.
-  kernel.StartTile(width, static_cast<std::size_t>(height));
+  kernel.StartTile(width, static_cast<std::size_t>(height), static_cast<std::size_t>(depth));
   const auto advance = [&](const IndexValueType plane) {
     for (IndexValueType row = -rowHalo; row < height + rowHalo; ++row)
     {
@@ -499,9 +499,9 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(Kerne
   while (plane < depth + planeHalo)
   {
     unsigned int complete = 0;
-    while (complete < KernelType::PlanesPerStep && plane < depth + planeHalo)
+    while (complete + KernelType::PlanesPerAdvance <= KernelType::PlanesPerStep && plane < depth + planeHalo)
     {
-      complete += advance(plane) ? 1 : 0;
+      complete += advance(plane);
       ++plane;
     }
     const IndexValueType firstComplete = plane - planeHalo - static_cast<IndexValueType>(complete);

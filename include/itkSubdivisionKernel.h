@@ -109,15 +109,18 @@ public:
 
   /** Begins a tile. */
   void
-  StartTile(std::size_t width, std::size_t height);
+  StartTile(std::size_t width, std::size_t height, std::size_t depth);
 
   /** Where voxel 0 of a row of the next plane is to be written; the halo lies before and after it. */
   TReal *
   GetInputRow(std::ptrdiff_t row);
 
-  /** Takes the plane that was written. Returns whether there are children to compute. */
-  bool
+  /** Takes the plane that was written. Returns of how many planes the children have become complete by it: at most
+   * PlanesPerAdvance. */
+  unsigned int
   AdvancePlane();
+
+  static constexpr unsigned int PlanesPerAdvance = 2;
 
   /** Planes whose children are best computed together, since they share most of what they read. */
   static constexpr unsigned int PlanesPerStep = 4;

@@ -163,6 +163,8 @@ struct SubdivisionKernel<TReal>::Implementation
   void
   LayOut(const std::size_t width, const std::size_t height)
   {
+    // Whole vectors may reach further to the left than the halo of the first row.
+    Memory.Take(CacheLine / sizeof(TReal));
     constexpr std::size_t line = CacheLine / sizeof(TReal);
     constexpr std::size_t halo = (SubdivisionMasks::ThresholdedRadius + line) / line * line;
     constexpr std::size_t overrun = WidestVector / sizeof(TReal);
@@ -189,9 +191,11 @@ struct SubdivisionKernel<TReal>::Implementation
       if (isThresholded)
       {
         ring(Sweep.SteepChildren[subset], plane);
-        ring(Sweep.SteepMinima[subset], plane);
-        Sweep.SlopeSums[subset] = plane();
-        rows.Limited[subset] = row();
+        ring(Sweep.SteepWindows[subset].Pair, plane);
+        ring(Sweep.SteepWindows[subset].Later, plane);
+        Sweep.KeptSlopeSums[subset] = plane();
+        Sweep.Limited[0][subset] = plane();
+        Sweep.Limited[1][subset] = plane();
       }
       for (auto & children : Sweep.Children)
       {
@@ -203,16 +207,18 @@ struct SubdivisionKernel<TReal>::Implementation
     ring(rows.Values[1], row);
     if (isThresholded)
     {
-      // The sums of the other subsets go where they are kept.
-      rows.Sums[LaneAxis] = row();
-      rows.Sums[BothAxesInPlane] = row();
-      ring(rows.Slope, row);
-      rows.RowDifference = row();
-      rows.RowDifferenceSum = row();
-      ring(rows.RowAxisSums, row);
-      ring(rows.BothAxesSums, row);
-      ring(rows.SweepCurvature, row);
-      rows.RowCurvature = row();
+      for (int i = 0; i < 2; ++i)
+      {
+        ring(rows.Slope[i], row);
+        rows.KeptRowSums[i] = row();
+        rows.KeptBothSums[i] = row();
+        rows.LaneSums[i] = row();
+        ring(rows.RowSums[i], row);
+        rows.BothSums[i] = row();
+        ring(rows.BothMinima[i], row);
+        ring(rows.SweepCurvature[i], row);
+        rows.RowCurvature[i] = row();
+      }
       ring(rows.SecondDifferences[0], row);
       ring(rows.SecondDifferences[1], row);
     }
@@ -257,12 +263,13 @@ SubdivisionKernel<TReal>::GetRecommendedTileSize(unsigned int numberOfAxes, std:
 
 template <typename TReal>
 void
-SubdivisionKernel<TReal>::StartTile(std::size_t width, std::size_t height)
+SubdivisionKernel<TReal>::StartTile(std::size_t width, std::size_t height, std::size_t depth)
 {
   auto & sweep = m_Implementation->Sweep;
   sweep.Width = static_cast<std::ptrdiff_t>(width);
   sweep.Height = sweep.HasRowAxis ? static_cast<std::ptrdiff_t>(height) : 1;
   sweep.Planes = 0;
+  sweep.EndPlanes = static_cast<std::ptrdiff_t>(depth) + 2 * m_Implementation->Radius;
 }
 
 template <typename TReal>
@@ -274,13 +281,22 @@ SubdivisionKernel<TReal>::GetInputRow(std::ptrdiff_t row)
 }
 
 template <typename TReal>
-bool
+unsigned int
 SubdivisionKernel<TReal>::AdvancePlane()
 {
   auto & sweep = m_Implementation->Sweep;
   m_Implementation->Steps.AdvancePlane(sweep);
   sweep.Input.Rotate();
-  return !sweep.HasSweepAxis || sweep.Planes > 2 * m_Implementation->Radius;
+  if (!sweep.HasSweepAxis)
+  {
+    return 1;
+  }
+  const std::ptrdiff_t complete = std::max<std::ptrdiff_t>(sweep.Planes - 2 * m_Implementation->Radius, 0);
+  if (sweep.Scheme != SchemeEnum::NonOscillatory)
+  {
+    return static_cast<unsigned int>(std::min<std::ptrdiff_t>(complete, 1));
+  }
+  return static_cast<unsigned int>(sweep.IsPairComplete() ? std::min<std::ptrdiff_t>(complete, 2) : 0);
 }
 
 template <typename TReal>

@@ -61,6 +61,7 @@ using hn::Abs;
 using hn::Add;
 using hn::Mul;
 using hn::MulAdd;
+using hn::MulSub;
 using hn::Neg;
 using hn::NegMulAdd;
 using hn::Sub;

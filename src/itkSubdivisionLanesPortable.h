@@ -85,6 +85,13 @@ MulAdd(T a, T b, T c)
 
 template <typename T>
 inline T
+MulSub(T a, T b, T c)
+{
+  return a * b - c;
+}
+
+template <typename T>
+inline T
 NegMulAdd(T a, T b, T c)
 {
   return c - a * b;

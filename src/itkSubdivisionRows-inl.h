@@ -11,6 +11,16 @@ namespace itk
 namespace SUBDIVISION_TARGET
 {
 
+/** Where the loop over a row begins that is to reach some way beyond the tile: at a whole vector, since loads and stores
+ * across cache lines cost much more than the lanes that are computed for nothing. */
+template <typename T>
+SUBDIVISION_INLINE std::ptrdiff_t
+                   FirstVector(const std::ptrdiff_t reach)
+{
+  const std::ptrdiff_t lanes = LaneCount<T>();
+  return -((reach + lanes - 1) / lanes * lanes);
+}
+
 /** Reads the neighbours of a voxel along its row. */
 template <typename T>
 struct AlongLanes
@@ -81,8 +91,7 @@ SUBDIVISION_INLINE void
 FilterRow(const TValues            values,
           const TSecondDifferences secondDifferences,
           const SharedMask<2> &    mask,
-          const std::ptrdiff_t     begin,
-          const std::ptrdiff_t     end,
+          const std::ptrdiff_t     width,
           T * const __restrict lower,
           T * const __restrict upper)
 {
@@ -97,7 +106,7 @@ FilterRow(const TValues            values,
   const auto curvedOdd = Broadcast<T>(SecondDifferenceMask.Odd[0]);
   const auto curvedOuter = Broadcast<T>(SecondDifferenceMask.Outer);
 
-  for (std::ptrdiff_t x = begin; x < end; x += LaneCount<T>())
+  for (std::ptrdiff_t x = 0; x < width; x += LaneCount<T>())
   {
     const auto before2 = Hold(values(x, -2));
     const auto before1 = Hold(values(x, -1));
@@ -116,13 +125,15 @@ FilterRow(const TValues            values,
       odd = MulAdd(curvedOdd, Sub(curvedAfter, curvedBefore), odd);
       even = MulAdd(curvedCentre, secondDifferences(x, 0), even);
     }
-    auto childBefore = MulAdd(outer, values(x, -3), Sub(even, odd));
-    auto childAfter = MulAdd(outer, values(x, 3), Add(even, odd));
+    auto rightOfCentre = MulAdd(outer, values(x, 3), odd);
+    auto leftOfCentre = MulSub(outer, values(x, -3), odd);
     if constexpr (!std::is_same<TSecondDifferences, NoSecondDifferences>::value)
     {
-      childBefore = MulAdd(curvedOuter, secondDifferences(x, -2), childBefore);
-      childAfter = MulAdd(curvedOuter, secondDifferences(x, 2), childAfter);
+      rightOfCentre = MulAdd(curvedOuter, secondDifferences(x, 2), rightOfCentre);
+      leftOfCentre = MulAdd(curvedOuter, secondDifferences(x, -2), leftOfCentre);
     }
+    const auto childBefore = Add(even, leftOfCentre);
+    const auto childAfter = Add(even, rightOfCentre);
     Store(childBefore, lower + x);
     Store(childAfter, upper + x);
   }
@@ -144,21 +155,15 @@ SecondDifference(const TValues values, const std::ptrdiff_t x)
   return NegMulAdd(Broadcast<T>(2), values(x, 0), Add(values(x, -1), values(x, 1)));
 }
 
-/** |values - their predecessors| + |their successors - values| along the lanes. */
-template <typename T, typename TValues>
-SUBDIVISION_INLINE auto
-SumOfDifferences(const TValues values, const std::ptrdiff_t x)
-{
-  const auto value = values(x, 0);
-  return Add(Abs(Sub(value, values(x, -1))), Abs(Sub(values(x, 1), value)));
-}
-
 /** Window minima of a row or of several. */
 template <typename T, typename TSums>
 SUBDIVISION_INLINE void
-WindowMinimumRow(const TSums sums, const std::ptrdiff_t begin, const std::ptrdiff_t end, T * const __restrict minimum)
+WindowMinimumRow(const TSums          sums,
+                 const std::ptrdiff_t reach,
+                 const std::ptrdiff_t width,
+                 T * const __restrict minimum)
 {
-  for (std::ptrdiff_t x = begin; x < end; x += LaneCount<T>())
+  for (std::ptrdiff_t x = FirstVector<T>(reach); x < width + reach; x += LaneCount<T>())
   {
     Store(WindowMinimum(sums, x), minimum + x);
   }
@@ -168,11 +173,11 @@ WindowMinimumRow(const TSums sums, const std::ptrdiff_t begin, const std::ptrdif
 template <typename T, typename TValues>
 SUBDIVISION_INLINE void
 SecondDifferenceRow(const TValues        values,
-                    const std::ptrdiff_t begin,
-                    const std::ptrdiff_t end,
+                    const std::ptrdiff_t reach,
+                    const std::ptrdiff_t width,
                     T * const __restrict result)
 {
-  for (std::ptrdiff_t x = begin; x < end; x += LaneCount<T>())
+  for (std::ptrdiff_t x = FirstVector<T>(reach); x < width + reach; x += LaneCount<T>())
   {
     Store(SecondDifference<T>(values, x), result + x);
   }
@@ -219,12 +224,12 @@ SUBDIVISION_INLINE void
 LimitRow(const TField         field,
          const TSums          sums,
          const double         tension,
-         const std::ptrdiff_t begin,
-         const std::ptrdiff_t end,
+         const std::ptrdiff_t reach,
+         const std::ptrdiff_t width,
          T * const __restrict result)
 {
   const auto factor = Broadcast<T>(tension);
-  for (std::ptrdiff_t x = begin; x < end; x += LaneCount<T>())
+  for (std::ptrdiff_t x = FirstVector<T>(reach); x < width + reach; x += LaneCount<T>())
   {
     Store(Limit(field(x), factor, WindowMinimum(sums, x)), result + x);
   }

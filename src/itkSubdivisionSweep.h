@@ -36,6 +36,15 @@ struct SubdivisionRing
   }
 };
 
+/** What windows of five planes, of which every second one begins a pair, need to know of the last four: the minima of
+ * either pair, and the later plane of either. Entry 0 is the newer pair. */
+template <typename T>
+struct SubdivisionPlaneWindow
+{
+  SubdivisionRing<T, 2> Pair;
+  SubdivisionRing<T, 2> Later;
+};
+
 /** The subsets of the axes {lane, row} that a field belongs to, as bits. */
 enum SubdivisionAxesInPlane
 {
@@ -56,8 +65,7 @@ template <typename T>
 struct SubdivisionSweep
 {
   static constexpr int PlanesPerStep = SubdivisionKernel<T>::PlanesPerStep;
-  static constexpr int ThresholdedInputs = 5;
-  static constexpr int WindowPlanes = 5;
+  static constexpr int ThresholdedInputs = 6;
   // The stencils of the planes of a step.
   static constexpr int ValuePlanes = 7 + PlanesPerStep - 1;
   static constexpr int SecondDifferencePlanes = 5 + PlanesPerStep - 1;
@@ -72,8 +80,17 @@ struct SubdivisionSweep
   std::ptrdiff_t Height;
   std::ptrdiff_t Pitch;
 
-  /** Planes taken since the tile began. */
+  /** Planes taken since the tile began, and planes that the tile needs, with its halo. */
   std::ptrdiff_t Planes;
+  std::ptrdiff_t EndPlanes;
+
+  /** The steep fields are computed for two planes at a time, and the last plane of a tile completes a pair; if their
+   * number is odd, the first one does so, too. */
+  bool
+  IsPairComplete() const
+  {
+    return (EndPlanes - Planes) % 2 == 0;
+  }
 
   /** The input planes; the caller writes entry 0. */
   SubdivisionRing<T, ThresholdedInputs> Input;
@@ -82,10 +99,14 @@ struct SubdivisionSweep
   SubdivisionRing<T, ValuePlanes>            FlatChildren[SubsetsInPlane];
   SubdivisionRing<T, SecondDifferencePlanes> SteepChildren[SubsetsInPlane];
 
-  /** Block sums of the differences between the two newest input planes, by [subset in plane]. */
-  T * SlopeSums[SubsetsInPlane];
-  /** Window minima in the plane of the steep fields' block sums, by [subset in plane]. */
-  SubdivisionRing<T, WindowPlanes> SteepMinima[SubsetsInPlane];
+  /** Limited fields, by [plane: earlier, later][subset in plane]; only the steep ones need two planes, and the flat
+   * field of no axis is the input itself. */
+  T * Limited[2][SubsetsInPlane];
+
+  /** The part of the steep fields' block sums in the latest slope, by [subset in plane]. */
+  T * KeptSlopeSums[SubsetsInPlane];
+  /** Windows of the steep fields' block sums along the sweep, by [subset in plane]. */
+  SubdivisionPlaneWindow<T> SteepWindows[SubsetsInPlane];
 
   /** Smallest and largest value of the neighbours in the plane (bounded linear scheme). */
   SubdivisionRing<T, NeighbourPlanes> SmallestNeighbour;
@@ -94,24 +115,23 @@ struct SubdivisionSweep
   /** Rows that live while one plane is processed. */
   struct RowBuffers
   {
-    /** Differences between the two newest input planes. */
-    SubdivisionRing<T, 2> Slope;
-    /** Of the two newest rows: absolute differences, and block sums along the lanes of their differences. */
-    T * RowDifference;
-    T * RowDifferenceSum;
-    /** Block sums by [subset in plane]. */
-    T * Sums[SubsetsInPlane];
-    /** For the subsets with the row axis: block sums (their window minima along the lanes, if the subset has that
-     * axis too) of the last rows. */
-    SubdivisionRing<T, 5> RowAxisSums;
-    SubdivisionRing<T, 5> BothAxesSums;
+    // By [plane: earlier, later], where only the steep fields need two.
+    /** Differences between the newest input planes. */
+    SubdivisionRing<T, 2> Slope[2];
+    /** The part of the block sums in the latest difference of rows. */
+    T * KeptRowSums[2];
+    T * KeptBothSums[2];
+    /** Block sums of the subsets without the row axis, with it, and with both; for windows across rows, of the last
+     * rows, with their minima along the lanes if the subset has that axis, too. */
+    T *                   LaneSums[2];
+    SubdivisionRing<T, 5> RowSums[2];
+    T *                   BothSums[2];
+    SubdivisionRing<T, 5> BothMinima[2];
     /** Second differences along the sweep, and along rows of those or of the values. */
-    SubdivisionRing<T, 4> SweepCurvature;
-    T *                   RowCurvature;
-    /** Limited fields, by [subset in plane]. */
-    T * Limited[SubsetsInPlane];
+    SubdivisionRing<T, 5> SweepCurvature[2];
+    T *                   RowCurvature[2];
     /** Children along the lanes of the fields without and with the row axis. */
-    SubdivisionRing<T, 8> Values[2];
+    SubdivisionRing<T, 7> Values[2];
     SubdivisionRing<T, 5> SecondDifferences[2];
     /** Smallest and largest neighbour along the lanes. */
     SubdivisionRing<T, 3> Smallest;

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: Apache-2.0
+
+// The fields of second differences, limited by their thresholds (docs/scheme.md, section 3), plane by plane. No include
+// guard: every target includes this file once, into its own namespace.
+
+#include "itkSubdivisionRows-inl.h"
+#include "itkSubdivisionSweep.h"
+
+#include <limits>
+
+namespace itk
+{
+namespace SUBDIVISION_TARGET
+{
+
+// How far beyond the tile each kind of row reaches.
+constexpr std::ptrdiff_t ValueReach = SubdivisionMasks::ValueRadius;
+constexpr std::ptrdiff_t SecondDifferenceReach = SubdivisionMasks::SecondDifferenceRadius;
+constexpr std::ptrdiff_t SumReach = SecondDifferenceReach + SubdivisionMasks::WindowRadius;
+
+/** Rows of a plane ring, or entries of a row ring, around the one of age VRadius + newest. */
+template <int VRadius, typename T, int VLength>
+SUBDIVISION_INLINE AcrossRows<T, VRadius>
+                   RowsAround(const SubdivisionRing<T, VLength> & ring, const int newest, const std::ptrdiff_t offset)
+{
+  AcrossRows<T, VRadius> rows;
+  for (int i = 0; i <= 2 * VRadius; ++i)
+  {
+    rows.Row[i] = ring[newest + i] + offset;
+  }
+  return rows;
+}
+
+/** Three consecutive rows of a plane. */
+template <typename T>
+SUBDIVISION_INLINE AcrossRows<T, 1>
+                   RowsOfPlane(const T * const row, const std::ptrdiff_t pitch)
+{
+  return AcrossRows<T, 1>{ { row + pitch, row, row - pitch } };
+}
+
+/** The sizes of the differences that a row and the one after it add to the block sums of the row's voxels: of those
+ * along the lanes, of those between the rows, and of those along both axes. */
+template <bool VRowAxis, typename T, typename TVector>
+SUBDIVISION_INLINE void
+SumDifferences(const T * const      row,
+               const T * const      nextRow,
+               const std::ptrdiff_t x,
+               TVector &            lanes,
+               TVector &            rows,
+               TVector &            both)
+{
+  const auto before = Hold(Load(row + x - 1));
+  const auto value = Hold(Load(row + x));
+  const auto after = Hold(Load(row + x + 1));
+  lanes = Add(Abs(Sub(value, before)), Abs(Sub(after, value)));
+  if constexpr (VRowAxis)
+  {
+    const auto difference = Sub(Load(nextRow + x), value);
+    const auto differenceBefore = Sub(Load(nextRow + x - 1), before);
+    const auto differenceAfter = Sub(Load(nextRow + x + 1), after);
+    rows = Abs(difference);
+    both = Add(Abs(Sub(difference, differenceBefore)), Abs(Sub(differenceAfter, difference)));
+  }
+}
+
+/** Adds what a neighbour left, and leaves the part of the sum that came in. */
+template <typename T, typename TVector>
+SUBDIVISION_INLINE TVector
+AddKept(const TVector part, T * const kept)
+{
+  const auto sum = Add(Load(kept), part);
+  Store(part, kept);
+  return sum;
+}
+
+/** Sums for windows to be taken of. One with a value that is not finite does not limit anything, and minima without NaN
+ * do not depend on their order. */
+template <typename T, typename TVector>
+SUBDIVISION_INLINE TVector
+Comparable(const TVector sum)
+{
+  return OrderedMin(sum, Broadcast<T>(std::numeric_limits<T>::max()));
+}
+
+/** Block sums of the flat fields of a row. */
+template <bool VRowAxis, typename T>
+SUBDIVISION_INLINE void
+SumFlatDifferences(const typename SubdivisionSweep<T>::RowBuffers & buffers,
+                   const T * const                                  row,
+                   const T * const                                  nextRow,
+                   const std::ptrdiff_t                             width)
+{
+  for (std::ptrdiff_t x = FirstVector<T>(SumReach); x < width + SumReach; x += LaneCount<T>())
+  {
+    Vector<T> lanes;
+    Vector<T> rows;
+    Vector<T> both;
+    SumDifferences<VRowAxis>(row, nextRow, x, lanes, rows, both);
+    Store(Comparable<T>(lanes), buffers.LaneSums[0] + x);
+    if constexpr (VRowAxis)
+    {
+      Store(Comparable<T>(AddKept(rows, buffers.KeptRowSums[0] + x)), buffers.RowSums[0][0] + x);
+      Store(Comparable<T>(AddKept(both, buffers.KeptBothSums[0] + x)), buffers.BothSums[0] + x);
+    }
+  }
+}
+
+/** The limited flat fields of a plane. */
+template <bool VRowAxis, typename T>
+void
+LimitFlatFields(SubdivisionSweep<T> & s, const T * const plane)
+{
+  auto &               buffers = s.Rows;
+  if (!VRowAxis)
+  {
+    SumFlatDifferences<false>(buffers, plane, plane, s.Width);
+    LimitRow(RowCurvature<T>{ plane },
+             AlongLanes<T>{ buffers.LaneSums[0] },
+             s.Tension,
+             ValueReach,
+             s.Width,
+             s.Limited[0][LaneAxis]);
+    return;
+  }
+  // The first row is there for what it keeps for the next one.
+  for (std::ptrdiff_t r = -SumReach - 1; r < s.Height + SumReach; ++r)
+  {
+    const std::ptrdiff_t here = r * s.Pitch;
+    buffers.RowSums[0].Rotate();
+    buffers.BothMinima[0].Rotate();
+    SumFlatDifferences<true>(buffers, plane + here, plane + here + s.Pitch, s.Width);
+    WindowMinimumRow(AlongLanes<T>{ buffers.BothSums[0] }, ValueReach, s.Width, buffers.BothMinima[0][0]);
+    if (r >= -ValueReach && r < s.Height + ValueReach)
+    {
+      LimitRow(RowCurvature<T>{ plane + here },
+               AlongLanes<T>{ buffers.LaneSums[0] },
+               s.Tension,
+               ValueReach,
+               s.Width,
+               s.Limited[0][LaneAxis] + here);
+    }
+    if (r - SubdivisionMasks::WindowRadius >= -SecondDifferenceReach)
+    {
+      const std::ptrdiff_t back = here - SubdivisionMasks::WindowRadius * s.Pitch;
+      const T * const      curvature = buffers.RowCurvature[0];
+      SecondDifferenceRow(RowsOfPlane(plane + back, s.Pitch), ValueReach + 1, s.Width, buffers.RowCurvature[0]);
+      LimitRow(RowValues<T>{ curvature },
+               RowsAround<2>(buffers.RowSums[0], 0, 0),
+               s.Tension,
+               ValueReach,
+               s.Width,
+               s.Limited[0][RowAxis] + back);
+      LimitRow(RowCurvature<T>{ curvature },
+               RowsAround<2>(buffers.BothMinima[0], 0, 0),
+               s.Tension,
+               ValueReach,
+               s.Width,
+               s.Limited[0][BothAxesInPlane] + back);
+    }
+  }
+}
+
+/** Of the minima in the plane of two more planes, makes those of the two windows of planes that they complete. */
+template <typename T, typename TVector>
+SUBDIVISION_INLINE void
+AdvanceWindow(const SubdivisionPlaneWindow<T> & window, const std::ptrdiff_t offset, TVector & earlier, TVector & later)
+{
+  T * const  oldestPair = window.Pair[1] + offset;
+  T * const  oldestLater = window.Later[1] + offset;
+  const auto middlePair = Load(window.Pair[0] + offset);
+  const auto newestLater = later;
+  const auto newestPair = OrderedMin(earlier, later);
+  earlier = OrderedMin(OrderedMin(middlePair, Load(oldestPair)), earlier);
+  later = OrderedMin(OrderedMin(middlePair, Load(oldestLater)), newestPair);
+  Store(newestPair, oldestPair);
+  Store(newestLater, oldestLater);
+}
+
+/** Of a row, the slopes between the newest planes, their curvature along the sweep, and that limited. */
+template <typename T>
+SUBDIVISION_INLINE void
+AdvanceSlopes(SubdivisionSweep<T> & s, const std::ptrdiff_t here)
+{
+  auto & buffers = s.Rows;
+  for (int plane = 0; plane < 2; ++plane)
+  {
+    buffers.Slope[plane].Rotate();
+    buffers.SweepCurvature[plane].Rotate();
+  }
+  T * const       earlierSlope = buffers.Slope[0][0];
+  T * const       laterSlope = buffers.Slope[1][0];
+  T * const       earlierCurvature = buffers.SweepCurvature[0][0];
+  T * const       laterCurvature = buffers.SweepCurvature[1][0];
+  T * const       earlierLimited = s.Limited[0][NoAxisInPlane] + here;
+  T * const       laterLimited = s.Limited[1][NoAxisInPlane] + here;
+  const T * const input0 = s.Input[0] + here;
+  const T * const input1 = s.Input[1] + here;
+  const T * const input2 = s.Input[2] + here;
+  const T * const input3 = s.Input[3] + here;
+  const T * const input4 = s.Input[4] + here;
+  const T * const input5 = s.Input[5] + here;
+  const auto      tension = Broadcast<T>(s.Tension);
+  const auto      two = Broadcast<T>(2);
+  for (std::ptrdiff_t x = FirstVector<T>(SumReach + 1); x < s.Width + SumReach + 1; x += LaneCount<T>())
+  {
+    const auto value1 = Hold(Load(input1 + x));
+    const auto value2 = Hold(Load(input2 + x));
+    const auto value3 = Hold(Load(input3 + x));
+    const auto value4 = Hold(Load(input4 + x));
+    const auto slope0 = Sub(Load(input0 + x), value1);
+    const auto slope1 = Sub(value1, value2);
+    Store(slope1, earlierSlope + x);
+    Store(slope0, laterSlope + x);
+
+    auto earlier = Comparable<T>(Add(Abs(slope1), Abs(Sub(value2, value3))));
+    auto later = Comparable<T>(Add(Abs(slope0), Abs(slope1)));
+    AdvanceWindow(s.SteepWindows[NoAxisInPlane], here + x, earlier, later);
+
+    const auto curvature4 = NegMulAdd(two, value4, Add(Load(input5 + x), value3));
+    const auto curvature3 = NegMulAdd(two, value3, Add(value4, value2));
+    Store(curvature4, earlierCurvature + x);
+    Store(curvature3, laterCurvature + x);
+    Store(Limit(curvature4, tension, earlier), earlierLimited + x);
+    Store(Limit(curvature3, tension, later), laterLimited + x);
+  }
+}
+
+/** Block sums of the steep fields with an axis in the plane, of a row of the two newest slopes. */
+template <bool VRowAxis, typename T>
+SUBDIVISION_INLINE void
+SumSteepDifferences(const SubdivisionSweep<T> & s, const std::ptrdiff_t here)
+{
+  const auto &    buffers = s.Rows;
+  const T * const earlierRow = buffers.Slope[0][VRowAxis ? 1 : 0];
+  const T * const laterRow = buffers.Slope[1][VRowAxis ? 1 : 0];
+  const T * const earlierNextRow = buffers.Slope[0][0];
+  const T * const laterNextRow = buffers.Slope[1][0];
+  T * const       keptLane = s.KeptSlopeSums[LaneAxis] + here;
+  T * const       keptRow = s.KeptSlopeSums[RowAxis] + here;
+  T * const       keptBoth = s.KeptSlopeSums[BothAxesInPlane] + here;
+  for (std::ptrdiff_t x = FirstVector<T>(SumReach); x < s.Width + SumReach; x += LaneCount<T>())
+  {
+    Vector<T> earlierLanes, earlierRows, earlierBoth;
+    Vector<T> laterLanes, laterRows, laterBoth;
+    SumDifferences<VRowAxis>(earlierRow, earlierNextRow, x, earlierLanes, earlierRows, earlierBoth);
+    SumDifferences<VRowAxis>(laterRow, laterNextRow, x, laterLanes, laterRows, laterBoth);
+    Store(Comparable<T>(Add(Load(keptLane + x), earlierLanes)), buffers.LaneSums[0] + x);
+    Store(Comparable<T>(Add(earlierLanes, laterLanes)), buffers.LaneSums[1] + x);
+    Store(laterLanes, keptLane + x);
+    if constexpr (VRowAxis)
+    {
+      const auto rows0 = Add(Load(keptRow + x), earlierRows);
+      const auto rows1 = Add(earlierRows, laterRows);
+      Store(laterRows, keptRow + x);
+      const auto both0 = Add(Load(keptBoth + x), earlierBoth);
+      const auto both1 = Add(earlierBoth, laterBoth);
+      Store(laterBoth, keptBoth + x);
+      Store(Comparable<T>(AddKept(rows0, buffers.KeptRowSums[0] + x)), buffers.RowSums[0][0] + x);
+      Store(Comparable<T>(AddKept(rows1, buffers.KeptRowSums[1] + x)), buffers.RowSums[1][0] + x);
+      Store(Comparable<T>(AddKept(both0, buffers.KeptBothSums[0] + x)), buffers.BothSums[0] + x);
+      Store(Comparable<T>(AddKept(both1, buffers.KeptBothSums[1] + x)), buffers.BothSums[1] + x);
+    }
+  }
+}
+
+/** Two planes' row of a steep field, limited. */
+template <typename T, typename TField, typename TSums>
+SUBDIVISION_INLINE void
+LimitSteepRows(SubdivisionSweep<T> & s,
+               const int             subset,
+               const std::ptrdiff_t  offset,
+               const TField          earlierField,
+               const TField          laterField,
+               const TSums           earlierSums,
+               const TSums           laterSums)
+{
+  const auto & window = s.SteepWindows[subset];
+  T * const    earlierLimited = s.Limited[0][subset] + offset;
+  T * const    laterLimited = s.Limited[1][subset] + offset;
+  const auto   tension = Broadcast<T>(s.Tension);
+  for (std::ptrdiff_t x = FirstVector<T>(ValueReach); x < s.Width + ValueReach; x += LaneCount<T>())
+  {
+    auto earlier = WindowMinimum(earlierSums, x);
+    auto later = WindowMinimum(laterSums, x);
+    AdvanceWindow(window, offset + x, earlier, later);
+    Store(Limit(earlierField(x), tension, earlier), earlierLimited + x);
+    Store(Limit(laterField(x), tension, later), laterLimited + x);
+  }
+}
+
+/** The limited steep fields of the two planes whose windows the newest planes complete. */
+template <bool VRowAxis, typename T>
+void
+LimitSteepFields(SubdivisionSweep<T> & s)
+{
+  auto & buffers = s.Rows;
+  if (VRowAxis)
+  {
+    // Only for the differences towards the first row.
+    AdvanceSlopes(s, (-SumReach - 1) * s.Pitch);
+  }
+  for (std::ptrdiff_t r = VRowAxis ? -SumReach - 1 : 0; r < (VRowAxis ? s.Height + SumReach : 1); ++r)
+  {
+    const std::ptrdiff_t here = r * s.Pitch;
+    AdvanceSlopes(s, VRowAxis ? here + s.Pitch : here);
+    if (VRowAxis)
+    {
+      for (int plane = 0; plane < 2; ++plane)
+      {
+        buffers.RowSums[plane].Rotate();
+        buffers.BothMinima[plane].Rotate();
+      }
+    }
+    SumSteepDifferences<VRowAxis>(s, here);
+    const T * const earlierCurvature = buffers.SweepCurvature[0][VRowAxis ? 1 : 0];
+    const T * const laterCurvature = buffers.SweepCurvature[1][VRowAxis ? 1 : 0];
+    LimitSteepRows(s,
+                   LaneAxis,
+                   here,
+                   RowCurvature<T>{ earlierCurvature },
+                   RowCurvature<T>{ laterCurvature },
+                   AlongLanes<T>{ buffers.LaneSums[0] },
+                   AlongLanes<T>{ buffers.LaneSums[1] });
+    if (!VRowAxis)
+    {
+      break;
+    }
+    for (int plane = 0; plane < 2; ++plane)
+    {
+      WindowMinimumRow(
+        AlongLanes<T>{ buffers.BothSums[plane] }, ValueReach, s.Width, buffers.BothMinima[plane][0]);
+    }
+    if (r - SubdivisionMasks::WindowRadius >= -SecondDifferenceReach)
+    {
+      const std::ptrdiff_t back = here - SubdivisionMasks::WindowRadius * s.Pitch;
+      for (int plane = 0; plane < 2; ++plane)
+      {
+        SecondDifferenceRow(RowsAround<1>(buffers.SweepCurvature[plane], 2, 0),
+                            ValueReach + 1,
+                            s.Width,
+                            buffers.RowCurvature[plane]);
+      }
+      LimitSteepRows(s,
+                     RowAxis,
+                     back,
+                     RowValues<T>{ buffers.RowCurvature[0] },
+                     RowValues<T>{ buffers.RowCurvature[1] },
+                     RowsAround<2>(buffers.RowSums[0], 0, 0),
+                     RowsAround<2>(buffers.RowSums[1], 0, 0));
+      LimitSteepRows(s,
+                     BothAxesInPlane,
+                     back,
+                     RowCurvature<T>{ buffers.RowCurvature[0] },
+                     RowCurvature<T>{ buffers.RowCurvature[1] },
+                     RowsAround<2>(buffers.BothMinima[0], 0, 0),
+                     RowsAround<2>(buffers.BothMinima[1], 0, 0));
+    }
+  }
+  for (auto & window : s.SteepWindows)
+  {
+    window.Pair.Rotate();
+    window.Later.Rotate();
+  }
+}
+
+} // namespace SUBDIVISION_TARGET
+} // namespace itk

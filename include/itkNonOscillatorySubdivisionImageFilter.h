@@ -14,6 +14,7 @@
 
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 namespace itk
@@ -188,6 +189,11 @@ private:
   SizeType
   ComputeTileSize(const InputRegionType & parents) const;
 
+  /** Of tile sizes up to the largest one, parts of it along the rows and the sweep, the one with which the threads are
+   * done first: with little halo, and none of them idle at the end. */
+  SizeType
+  BalanceTileSize(const SizeType & parents, const SizeType & largest) const;
+
   static SizeValueType
   DivideUp(const SizeValueType size, const SizeValueType part)
   {
@@ -201,6 +207,28 @@ private:
   /** The position, along each axis, of an element of an array of the given size. */
   static SizeType
   Unravel(SizeValueType number, const SizeType & size);
+
+  /** What a kernel is made for. */
+  struct KernelSettings
+  {
+    std::string  Target;
+    SchemeEnum   Scheme{};
+    double       Tension{};
+    unsigned int NumberOfAxes{};
+    std::size_t  Width{};
+    std::size_t  Height{};
+
+    bool
+    operator==(const KernelSettings & other) const
+    {
+      return Target == other.Target && Scheme == other.Scheme && Tension == other.Tension &&
+             NumberOfAxes == other.NumberOfAxes && Width == other.Width && Height == other.Height;
+    }
+  };
+
+  /** Forgets kernels that were made for something else than tiles of the given size. */
+  void
+  PrepareKernels(const SizeType & tileSize);
 
   KernelPointer
   BorrowKernel();
@@ -224,8 +252,10 @@ private:
   double                       m_Tension{ 2.0 };
   AxesType                     m_SubdividedAxes;
 
-  /** Kernels that no thread uses at the moment: as many as threads once did, so that each allocates once. */
+  /** Kernels that no thread uses at the moment: as many as threads once did, so that each allocates once, even if the
+   * output is streamed. */
   std::vector<KernelPointer> m_IdleKernels;
+  KernelSettings             m_KernelSettings;
   std::mutex                 m_IdleKernelsMutex;
 };
 

@@ -272,17 +272,49 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::ComputeTileSize
       splitEvenly(tile[axis], std::max<SizeValueType>(morsel / pixels, 1));
     }
   }
+  return axes.size() > 1 ? this->BalanceTileSize(parents.GetSize(), tile) : tile;
+}
 
-  // Along the sweep, where each part costs its halo once more, only for threads that had nothing to do otherwise.
-  if (axes.size() > 1)
+template <typename TInputImage, typename TOutputImage>
+auto
+NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::BalanceTileSize(const SizeType & parents,
+                                                                                 const SizeType & largest) const
+  -> SizeType
+{
+  const SubdivisionTileAxes axes(this->GetAxes());
+  constexpr SizeValueType   halo = SubdivisionMasks::ThresholdedRadius;
+  constexpr SizeValueType   shortest = 4 * halo;
+  const SizeValueType       threads =
+    std::min<SizeValueType>(this->GetMultiThreader()->GetMaximumNumberOfThreads(), this->GetNumberOfWorkUnits());
+  const SizeValueType fewestRowParts = axes.HasRows() ? DivideUp(parents[axes.GetRows()], largest[axes.GetRows()]) : 1;
+  const SizeValueType mostRowParts = axes.HasRows() ? 2 * fewestRowParts : 1;
+  const SizeValueType mostSweepParts =
+    std::max<SizeValueType>(std::min(parents[axes.GetSweep()] / shortest, threads), 1);
+
+  SizeType      best = largest;
+  SizeValueType leastTime = NumericTraits<SizeValueType>::max();
+  for (SizeValueType rowParts = fewestRowParts; rowParts <= mostRowParts; ++rowParts)
   {
-    constexpr SizeValueType shortest = 4 * SubdivisionMasks::ThresholdedRadius;
-    const SizeValueType     threads = this->GetMultiThreader()->GetMaximumNumberOfThreads();
-    const SizeValueType     tiles = InputRegionType(DivideUp(parents.GetSize(), tile)).GetNumberOfPixels();
-    SizeValueType &         depth = tile[axes.back()];
-    splitEvenly(depth, std::max(DivideUp(depth, DivideUp(threads, tiles)), shortest));
+    for (SizeValueType sweepParts = 1; sweepParts <= mostSweepParts; ++sweepParts)
+    {
+      SizeType tile = largest;
+      if (axes.HasRows())
+      {
+        tile[axes.GetRows()] = DivideUp(parents[axes.GetRows()], rowParts);
+      }
+      tile[axes.GetSweep()] = DivideUp(parents[axes.GetSweep()], sweepParts);
+      const SizeValueType tiles = InputRegionType(DivideUp(parents, tile)).GetNumberOfPixels();
+      // About half of the work extends over the halo on both sides.
+      const SizeValueType rows = axes.HasRows() ? tile[axes.GetRows()] + halo : 1;
+      const SizeValueType time = DivideUp(tiles, threads) * rows * (tile[axes.GetSweep()] + halo);
+      if (time < leastTime)
+      {
+        leastTime = time;
+        best = tile;
+      }
+    }
   }
-  return tile;
+  return best;
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -295,7 +327,8 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GenerateData()
   const InputRegionType parents = this->ComputeParents(this->GetOutput()->GetRequestedRegion());
   const SizeType        tileSize = this->ComputeTileSize(parents);
   const SizeType        tiles = DivideUp(parents.GetSize(), tileSize);
-  const auto            computeTile = [&](const SizeValueType number) {
+  this->PrepareKernels(tileSize);
+  const auto computeTile = [&](const SizeValueType number) {
     const SizeType  position = Unravel(number, tiles);
     InputRegionType tile = parents;
     for (unsigned int axis = 0; axis < Dimension; ++axis)
@@ -333,7 +366,6 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GenerateData()
   threader->SetUpdateProgress(false);
   threader->ParallelizeArray(
     0, std::min<SizeValueType>(this->GetNumberOfWorkUnits(), numberOfTiles), computeTiles, nullptr);
-  m_IdleKernels.clear();
   if (firstException)
   {
     std::rethrow_exception(firstException);
@@ -341,6 +373,25 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GenerateData()
   this->UpdateProgress(1.0f);
 
   this->AfterThreadedGenerateData();
+}
+
+template <typename TInputImage, typename TOutputImage>
+void
+NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::PrepareKernels(const SizeType & tileSize)
+{
+  const SubdivisionTileAxes axes(this->GetAxes());
+  KernelSettings            settings;
+  settings.Target = GetSubdivisionTarget();
+  settings.Scheme = m_Scheme;
+  settings.Tension = m_Tension;
+  settings.NumberOfAxes = axes.GetNumber();
+  settings.Width = tileSize[axes.GetLanes()];
+  settings.Height = tileSize[axes.GetRows()];
+  if (!(settings == m_KernelSettings))
+  {
+    m_IdleKernels.clear();
+    m_KernelSettings = settings;
+  }
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -356,10 +407,9 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::BorrowKernel() 
       return kernel;
     }
   }
-  const SubdivisionTileAxes axes(this->GetAxes());
-  const SizeType            tile = this->ComputeTileSize(this->ComputeParents(this->GetOutput()->GetRequestedRegion()));
+  const KernelSettings & settings = m_KernelSettings;
   return KernelPointer(
-    new KernelType(m_Scheme, m_Tension, axes.GetNumber(), tile[axes.GetLanes()], tile[axes.GetRows()]));
+    new KernelType(settings.Scheme, settings.Tension, settings.NumberOfAxes, settings.Width, settings.Height));
 }
 
 template <typename TInputImage, typename TOutputImage>
@@ -455,19 +505,6 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(Kerne
   const IndexValueType firstPlane = parents.GetIndex(axes.GetSweep());
   const IndexValueType firstLane = SubdivisionMasks::Children * parents.GetIndex(axes.GetLanes());
 
-  const auto forEachChildRow = [&](const IndexValueType row, const IndexValueType plane, const auto & function) {
-    for (int planeChild = 0; planeChild < (axes.HasSweep() ? SubdivisionMasks::Children : 1); ++planeChild)
-    {
-      for (int rowChild = 0; rowChild < (axes.HasRows() ? SubdivisionMasks::Children : 1); ++rowChild)
-      {
-        function(SubdivisionMasks::Children * (firstRow + row) + rowChild,
-                 SubdivisionMasks::Children * (firstPlane + plane) + planeChild,
-                 rowChild,
-                 planeChild);
-      }
-    }
-  };
-
   // Rows are short: their memory is asked for before they are read or written.
   kernel.StartTile(width, static_cast<std::size_t>(height), static_cast<std::size_t>(depth));
   const auto advance = [&](const IndexValueType plane) {
@@ -481,41 +518,39 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(Kerne
     }
     return kernel.AdvancePlane();
   };
-  const auto prefetchChildren = [&](const IndexValueType row, const IndexValueType plane) {
-    forEachChildRow(row, plane, [&](const IndexValueType childRow, const IndexValueType childPlane, int, int) {
-      writer.PrefetchRow(childRow, childPlane);
-    });
-  };
-  const auto writeChildren = [&](const IndexValueType row, const IndexValueType plane, const unsigned int age) {
-    const auto    children = kernel.GetChildren(age);
-    SizeValueType written = 0;
-    forEachChildRow(row, plane, [&](IndexValueType childRow, IndexValueType childPlane, int rowChild, int planeChild) {
-      written += writer.WriteChildren(firstLane, childRow, childPlane, children.Rows[planeChild][rowChild], width);
-    });
-    report(written);
+  const int  rowChildren = axes.HasRows() ? SubdivisionMasks::Children : 1;
+  const int  sweepChildren = axes.HasSweep() ? SubdivisionMasks::Children : 1;
+  const auto writeChildren = [&](const IndexValueType row, const IndexValueType endPlane, const unsigned int planes) {
+    for (int rowChild = 0; rowChild < rowChildren; ++rowChild)
+    {
+      const auto           children = kernel.ComputeChildren(static_cast<std::size_t>(row), rowChild, planes);
+      const IndexValueType childRow = SubdivisionMasks::Children * (firstRow + row) + rowChild;
+      for (unsigned int age = 0; age < planes; ++age)
+      {
+        const IndexValueType plane = firstPlane + endPlane - 1 - static_cast<IndexValueType>(age);
+        for (int sweepChild = 0; sweepChild < sweepChildren; ++sweepChild)
+        {
+          const IndexValueType childPlane = SubdivisionMasks::Children * plane + sweepChild;
+          report(writer.WriteChildren(children.Rows[age][sweepChild], width, firstLane, childRow, childPlane));
+        }
+      }
+    }
   };
 
-  IndexValueType plane = -planeHalo;
-  while (plane < depth + planeHalo)
+  unsigned int   complete = 0;
+  IndexValueType endPlane = 0;
+  for (IndexValueType plane = -planeHalo; plane < depth + planeHalo; ++plane)
   {
-    unsigned int complete = 0;
-    while (complete + KernelType::PlanesPerAdvance <= KernelType::PlanesPerStep && plane < depth + planeHalo)
+    complete += advance(plane);
+    // The next plane may complete two.
+    if (complete + 1 >= KernelType::PlanesPerStep || plane + 1 == depth + planeHalo)
     {
-      complete += advance(plane);
-      ++plane;
-    }
-    const IndexValueType firstComplete = plane - planeHalo - static_cast<IndexValueType>(complete);
-    for (IndexValueType row = 0; row < height; ++row)
-    {
-      for (unsigned int i = 0; i < complete && row + 1 < height; ++i)
+      endPlane += complete;
+      for (IndexValueType row = 0; row < height; ++row)
       {
-        prefetchChildren(row + 1, firstComplete + i);
+        writeChildren(row, endPlane, complete);
       }
-      kernel.ComputeChildren(static_cast<std::size_t>(row), complete);
-      for (unsigned int i = 0; i < complete; ++i)
-      {
-        writeChildren(row, firstComplete + i, complete - 1 - i);
-      }
+      complete = 0;
     }
   }
 }

@@ -38,21 +38,24 @@ NonOscillatorySubdivision_EXPORT std::string
  * an image of its own.
  *
  * A tile is computed by a sweep. The caller writes one plane after the other, with GetRadius() more voxels on either
- * side of the tile along every axis, and takes the children of the plane GetRadius() planes back (with one axis: of
- * the row just written) once there are enough:
+ * side of the tile along every axis, and takes the children of planes as they are completed, some GetRadius() planes
+ * later (with one axis: of the row just written):
  *
  * \code
- * kernel.StartTile(width, height);
+ * kernel.StartTile(width, height, depth);
+ * unsigned int complete = 0;
  * for (each plane, from GetRadius() planes before the tile to GetRadius() planes after it)
  * {
  *   for (each row, likewise)
  *     write kernel.GetInputRow(row)[-radius ... width + radius - 1];
- *   if (kernel.AdvancePlane())
+ *   complete += kernel.AdvancePlane();
+ *   if (complete + 1 >= PlanesPerStep, or this is the last plane)
+ *   {
  *     for (row = 0; row < height; ++row)
- *     {
- *       kernel.ComputeChildren(row);
- *       use kernel.GetChildren();
- *     }
+ *       for (rowChild = 0; rowChild < 2; ++rowChild)
+ *         use kernel.ComputeChildren(row, rowChild, complete);
+ *     complete = 0;
+ *   }
  * }
  * \endcode
  *
@@ -69,18 +72,14 @@ class NonOscillatorySubdivision_EXPORT SubdivisionKernel
 public:
   using SchemeEnum = NonOscillatorySubdivisionImageFilterEnums::Scheme;
 
-  /** The lower and the upper children along the lanes of one row: \c width values each. */
-  struct LanePair
-  {
-    const TReal * Lower;
-    const TReal * Upper;
-  };
+  /** Planes whose children are best computed together, since they share most of what they read. */
+  static constexpr unsigned int PlanesPerStep = 4;
 
-  /** The children of one row of voxels, [child along the sweep][child from row to row]. Entries of an axis that the
-   * kernel does not have are those of child 0. */
+  /** Rows of children, by [planes completed since theirs][child along the sweep], each with both children along the
+   * lanes of every voxel, in the order that InterleaveChildren takes. Without a sweep there is only child 0. */
   struct ChildRows
   {
-    LanePair Rows[2][2];
+    const TReal * Rows[PlanesPerStep][2];
   };
 
   /** A kernel for tiles of at most the given size in voxels.
@@ -107,7 +106,7 @@ public:
   static void
   GetRecommendedTileSize(unsigned int numberOfAxes, std::size_t & width, std::size_t & height);
 
-  /** Begins a tile. */
+  /** Begins a tile of \c width voxels along the lanes, \c height rows and \c depth planes, without the halo. */
   void
   StartTile(std::size_t width, std::size_t height, std::size_t depth);
 
@@ -115,23 +114,16 @@ public:
   TReal *
   GetInputRow(std::ptrdiff_t row);
 
-  /** Takes the plane that was written. Returns of how many planes the children have become complete by it: at most
-   * PlanesPerAdvance. */
+  /** Takes the plane that was written. Returns of how many planes it completed the children: 0, 1 or 2. */
   unsigned int
   AdvancePlane();
 
-  static constexpr unsigned int PlanesPerAdvance = 2;
-
-  /** Planes whose children are best computed together, since they share most of what they read. */
-  static constexpr unsigned int PlanesPerStep = 4;
-
-  /** Computes the children of one row in the \c planes planes, at most PlanesPerStep, that were complete last. */
-  void
-  ComputeChildren(std::size_t row, unsigned int planes = 1);
-
-  /** What ComputeChildren computed last, of the plane that was complete \c age planes before the newest one. */
+  /** The children of one row in the planes that were completed last. They last until the next call.
+   * \param row the row of the voxels
+   * \param rowChild the child from row to row, 0 or 1; 0 unless there are three axes
+   * \param planes the number of planes, 1 to PlanesPerStep */
   ChildRows
-  GetChildren(unsigned int age = 0) const;
+  ComputeChildren(std::size_t row, unsigned int rowChild, unsigned int planes);
 
 private:
   struct Implementation;
@@ -140,19 +132,20 @@ private:
 
 /** Pixels that are converted from and to float in vector code: 8- and 16-bit integers and float.
  *
- * \c ConvertRow widens \c count pixels. \c InterleaveChildren writes 2 \c count pixels, lower, upper, lower, ...;
- * integers are rounded to nearest, ties to even, and saturate, and NaN becomes 0.
+ * \c ConvertRow widens \c count pixels. \c InterleaveChildren makes the 2 \c count pixels of a row of the kernel's
+ * children, lower, upper, lower, ...; integers are rounded to nearest, ties to even, and saturate, and NaN becomes 0.
  * @{ */
 #define itkDeclareSubdivisionConversions(TPixel)                                                       \
   NonOscillatorySubdivision_EXPORT void ConvertRow(const TPixel * in, std::size_t count, float * out); \
-  NonOscillatorySubdivision_EXPORT void InterleaveChildren(                                            \
-    const float * lower, const float * upper, std::size_t count, TPixel * out)
+  NonOscillatorySubdivision_EXPORT void InterleaveChildren(const float * children, std::size_t count, TPixel * out)
 itkDeclareSubdivisionConversions(std::uint8_t);
 itkDeclareSubdivisionConversions(std::int8_t);
 itkDeclareSubdivisionConversions(std::uint16_t);
 itkDeclareSubdivisionConversions(std::int16_t);
 itkDeclareSubdivisionConversions(float);
 #undef itkDeclareSubdivisionConversions
+NonOscillatorySubdivision_EXPORT void
+InterleaveChildren(const double * children, std::size_t count, double * out);
 /** @} */
 
 extern template class SubdivisionKernel<float>;

@@ -2,11 +2,15 @@
 #ifndef itkSubdivisionTileWriter_h
 #define itkSubdivisionTileWriter_h
 
+#include "itkCopyPastCache.h"
+#include "itkSubdivisionKernel.h"
 #include "itkSubdivisionMasks.h"
 #include "itkSubdivisionPixelTraits.h"
 #include "itkSubdivisionTileAxes.h"
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 namespace itk
 {
@@ -24,7 +28,6 @@ public:
   using RegionType = typename TImage::RegionType;
   using IndexType = typename TImage::IndexType;
   using ComponentType = SubdivisionComponentType<TImage>;
-  using LanePair = typename SubdivisionKernel<TReal>::LanePair;
 
   /**
    * \param image the image
@@ -39,7 +42,13 @@ public:
     , m_Stride(m_Components * image->GetOffsetTable()[axes.GetLanes()])
     , m_Begin(region.GetIndex(axes.GetLanes()))
     , m_End(m_Begin + static_cast<IndexValueType>(region.GetSize(axes.GetLanes())))
+    , m_IsLarge(image->GetBufferedRegion().GetNumberOfPixels() * m_Components * sizeof(ComponentType) > CacheSize)
   {}
+
+  ~SubdivisionTileWriter() { FinishCopiesPastCache(); }
+  SubdivisionTileWriter(const SubdivisionTileWriter &) = delete;
+  SubdivisionTileWriter &
+  operator=(const SubdivisionTileWriter &) = delete;
 
   /** Chooses the position along the axes that are not the tile's, and the component that is written. */
   void
@@ -48,14 +57,14 @@ public:
     m_Pixels = m_Axes.template FindImage<ComponentType>(m_Image, position) + component;
   }
 
-  /** Writes the children of \c parents voxels that lie in the region; returns how many these are. The indices are those
-   * of the first one's lower child, along the axes that the tile has. */
+  /** Writes those children of a row of \c parents voxels that lie in the region; returns how many these are. The
+   * indices are those of the first child, along the axes that the tile has. */
   SizeValueType
-  WriteChildren(const IndexValueType lane,
+  WriteChildren(const TReal * const  children,
+                const SizeValueType  parents,
+                const IndexValueType lane,
                 const IndexValueType row,
-                const IndexValueType plane,
-                const LanePair &     children,
-                const SizeValueType  parents)
+                const IndexValueType plane)
   {
     ComponentType * const pixels = this->FindRow(row, plane);
     if (!pixels)
@@ -63,19 +72,23 @@ public:
       return 0;
     }
     const auto count = static_cast<IndexValueType>(SubdivisionMasks::Children * parents);
-    if (m_Stride == 1 && m_Begin == lane && m_End == lane + count)
+    const bool isWholeRow = m_Stride == 1 && m_Begin == lane && m_End == lane + count;
+    if (isWholeRow && !m_IsLarge)
     {
-      Interleave(children, parents, pixels);
+      this->Interleave(children, parents, pixels);
+      return parents * SubdivisionMasks::Children;
     }
-    else
+    this->ReserveRow(count);
+    this->Interleave(children, parents, m_Row.get());
+    if (isWholeRow)
     {
-      // A row that begins or ends with half a voxel, or whose pixels do not lie side by side.
-      this->ReserveRow(count);
-      Interleave(children, parents, m_Row.get());
-      for (IndexValueType i = m_Begin; i < m_End; ++i)
-      {
-        pixels[(i - m_Begin) * m_Stride] = m_Row[i - lane];
-      }
+      CopyPastCache(m_Row.get(), count * sizeof(ComponentType), pixels);
+      return parents * SubdivisionMasks::Children;
+    }
+    // A row that begins or ends with half a voxel, or whose pixels do not lie side by side.
+    for (IndexValueType i = m_Begin; i < m_End; ++i)
+    {
+      pixels[(i - m_Begin) * m_Stride] = m_Row[i - lane];
     }
     return static_cast<SizeValueType>(m_End - m_Begin);
   }
@@ -92,17 +105,10 @@ public:
     return static_cast<SizeValueType>(m_End - m_Begin);
   }
 
-  /** Asks for the memory of a row that will be written soon. */
-  void
-  PrefetchRow(const IndexValueType row, const IndexValueType plane) const
-  {
-    if (const ComponentType * const pixels = this->FindRow(row, plane))
-    {
-      SubdivisionPrefetch(pixels, pixels + (m_End - m_Begin) * m_Stride);
-    }
-  }
-
 private:
+  /** The last-level cache of common processors, in bytes. */
+  static constexpr std::size_t CacheSize = std::size_t{ 16 } << 20;
+
   bool
   IsInRegion(const unsigned int axis, const IndexValueType index) const
   {
@@ -144,21 +150,19 @@ private:
     }
   }
 
-  static void
-  Interleave(const LanePair & children, const SizeValueType parents, ComponentType * const out)
+  void
+  Interleave(const TReal * const children, const SizeValueType parents, ComponentType * const out)
   {
     using VectorPixelType = SubdivisionVectorPixelType<ComponentType>;
     if constexpr (std::is_same<TReal, float>::value && !std::is_void<VectorPixelType>::value)
     {
-      InterleaveChildren(children.Lower, children.Upper, parents, reinterpret_cast<VectorPixelType *>(out));
+      InterleaveChildren(children, parents, reinterpret_cast<VectorPixelType *>(out));
     }
     else
     {
-      for (SizeValueType i = 0; i < parents; ++i)
-      {
-        out[2 * i] = SubdivisionRound<ComponentType>(children.Lower[i]);
-        out[2 * i + 1] = SubdivisionRound<ComponentType>(children.Upper[i]);
-      }
+      m_Values.resize(SubdivisionMasks::Children * parents);
+      InterleaveChildren(children, parents, m_Values.data());
+      std::transform(m_Values.begin(), m_Values.end(), out, &SubdivisionRound<ComponentType, TReal>);
     }
   }
 
@@ -172,9 +176,13 @@ private:
   IndexValueType m_Begin;
   IndexValueType m_End;
 
+  /** Whether the image is too large for who reads it to find much of it in the cache. */
+  bool m_IsLarge;
+
   ComponentType * m_Pixels{ nullptr };
 
-  /** A row before it is cropped or spread. */
+  /** A row before it is rounded, and before it is cropped or spread. */
+  std::vector<TReal>               m_Values;
   std::unique_ptr<ComponentType[]> m_Row;
   IndexValueType                   m_RowLength{ 0 };
 };

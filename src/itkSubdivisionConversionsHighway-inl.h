@@ -28,19 +28,33 @@ HWY_INLINE hn::Vec<FloatTag>
   return hn::LoadU(FloatTag(), in);
 }
 
+/** Calls \c convert with the index of the first element of every vector of a row. The last vector begins where it ends
+ * with the row, even if it repeats some of the one before. Returns whether the row is long enough for that. */
+template <typename TConvert>
+HWY_INLINE bool
+ForEachVector(const std::size_t count, const TConvert & convert)
+{
+  const std::size_t lanes = hn::Lanes(FloatTag());
+  if (count < lanes)
+  {
+    return false;
+  }
+  for (std::size_t x = 0; x < count - lanes; x += lanes)
+  {
+    convert(x);
+  }
+  convert(count - lanes);
+  return true;
+}
+
 template <typename TPixel>
 void
 ConvertRow(const TPixel * in, std::size_t count, float * out)
 {
-  const std::size_t lanes = hn::Lanes(FloatTag());
-  std::size_t       x = 0;
-  for (; x + lanes <= count; x += lanes)
+  const auto convert = [=](std::size_t x) HWY_ATTR { hn::StoreU(ConvertLanes(in + x), FloatTag(), out + x); };
+  if (!ForEachVector(count, convert))
   {
-    hn::StoreU(ConvertLanes(in + x), FloatTag(), out + x);
-  }
-  for (; x < count; ++x)
-  {
-    out[x] = static_cast<float>(in[x]);
+    std::copy_n(in, count, out);
   }
 }
 
@@ -63,7 +77,7 @@ HWY_INLINE hn::Vec<IntegerTag>
 }
 
 /** Stores both children of one vector of voxels. */
-template <typename TPixel>
+template <typename TPixel, std::enable_if_t<std::is_integral<TPixel>::value, int> = 0>
 HWY_INLINE void
 StoreChildren(hn::Vec<FloatTag> lower, hn::Vec<FloatTag> upper, TPixel * out)
 {
@@ -84,32 +98,30 @@ StoreChildren(hn::Vec<FloatTag> lower, hn::Vec<FloatTag> upper, TPixel * out)
   }
 }
 
+template <typename T, std::enable_if_t<std::is_floating_point<T>::value, int> = 0>
 HWY_INLINE void
-StoreChildren(hn::Vec<FloatTag> lower, hn::Vec<FloatTag> upper, float * out)
+StoreChildren(Vector<T> lower, Vector<T> upper, T * out)
 {
-  hn::StoreInterleaved2(lower, upper, FloatTag(), out);
+  hn::StoreInterleaved2(lower, upper, Tag<T>(), out);
 }
 
-template <typename TPixel>
+/** Both children along the lanes of \c count voxels, as pixels in order, of a row of a vector of lower ones and a
+ * vector of upper ones in turns. */
+template <typename T, typename TPixel>
 void
-InterleaveChildren(const float * lower, const float * upper, std::size_t count, TPixel * out)
+InterleaveChildren(const T * children, std::size_t count, TPixel * out)
 {
-  const std::size_t lanes = hn::Lanes(FloatTag());
+  const std::size_t lanes = hn::Lanes(Tag<T>());
   std::size_t       x = 0;
   for (; x + lanes <= count; x += lanes)
   {
-    StoreChildren(hn::LoadU(FloatTag(), lower + x), hn::LoadU(FloatTag(), upper + x), out + 2 * x);
+    StoreChildren(Load(children + 2 * x), Load(children + 2 * x + lanes), out + 2 * x);
   }
   if (x < count)
   {
-    // Neither the rows nor the pixels need have room for a whole vector.
-    constexpr std::size_t mostLanes = HWY_MAX_BYTES / sizeof(float);
-    float                 lastLower[mostLanes] = {};
-    float                 lastUpper[mostLanes] = {};
-    TPixel                last[2 * mostLanes];
-    std::memcpy(lastLower, lower + x, (count - x) * sizeof(float));
-    std::memcpy(lastUpper, upper + x, (count - x) * sizeof(float));
-    StoreChildren(hn::LoadU(FloatTag(), lastLower), hn::LoadU(FloatTag(), lastUpper), last);
+    // There need not be room for the pixels of a whole vector.
+    TPixel last[2 * HWY_MAX_BYTES / sizeof(T)];
+    StoreChildren(Load(children + 2 * x), Load(children + 2 * x + lanes), last);
     std::memcpy(out + 2 * x, last, 2 * (count - x) * sizeof(TPixel));
   }
 }

@@ -25,9 +25,9 @@ ConvertRow(const TPixel * in, std::size_t count, float * out)
 }
 
 /** A pixel: integers round to nearest, ties to even, and saturate; NaN becomes 0. */
-template <typename TPixel>
+template <typename TPixel, typename T>
 inline TPixel
-RoundToPixel(float value)
+RoundToPixel(T value)
 {
   if constexpr (std::is_floating_point<TPixel>::value)
   {
@@ -45,14 +45,14 @@ RoundToPixel(float value)
   }
 }
 
-template <typename TPixel>
+template <typename T, typename TPixel>
 void
-InterleaveChildren(const float * lower, const float * upper, std::size_t count, TPixel * out)
+InterleaveChildren(const T * children, std::size_t count, TPixel * out)
 {
-  for (std::size_t x = 0; x < count; ++x)
+  // Vectors of a single lane are in order.
+  for (std::size_t x = 0; x < 2 * count; ++x)
   {
-    out[2 * x] = RoundToPixel<TPixel>(lower[x]);
-    out[2 * x + 1] = RoundToPixel<TPixel>(upper[x]);
+    out[x] = RoundToPixel<TPixel>(children[x]);
   }
 }
 

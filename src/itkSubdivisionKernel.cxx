@@ -170,10 +170,21 @@ struct SubdivisionKernel<TReal>::Implementation
     constexpr std::size_t overrun = WidestVector / sizeof(TReal);
     const std::size_t rowLength = (halo + width + SubdivisionMasks::ThresholdedRadius + overrun + line) / line * line;
     const std::size_t rowHalo = Sweep.HasRowAxis ? SubdivisionMasks::ThresholdedRadius : 0;
+    const std::size_t childRowLength = 2 * ((width + overrun + line - 1) / line * line);
     Sweep.Pitch = static_cast<std::ptrdiff_t>(rowLength);
+    Sweep.ChildPitch = static_cast<std::ptrdiff_t>(childRowLength);
 
+    // The same voxel of successive planes shall not compete for the same lines of the cache.
+    const auto planeLength = [](const std::size_t values) {
+      constexpr std::size_t page = 4096 / sizeof(TReal);
+      return (values + page - 1) / page * page + 5 * line;
+    };
     const auto row = [&] { return Memory.Take(rowLength) + halo; };
-    const auto plane = [&] { return Memory.Take(rowLength * (height + 2 * rowHalo)) + rowHalo * rowLength + halo; };
+    const auto plane = [&] {
+      return Memory.Take(planeLength(rowLength * (height + 2 * rowHalo))) + rowHalo * rowLength + halo;
+    };
+    const auto childRow = [&] { return Memory.Take(childRowLength); };
+    const auto childPlane = [&] { return Memory.Take(planeLength(childRowLength * height)); };
     const auto ring = [](auto & entries, const auto & take) {
       for (auto & entry : entries.Entry)
       {
@@ -185,28 +196,32 @@ struct SubdivisionKernel<TReal>::Implementation
     const bool isBounded = Sweep.Scheme == SchemeEnum::BoundedLinear;
     auto &     rows = Sweep.Rows;
     ring(Sweep.Input, plane);
-    for (int subset = 0; subset < SubsetsInPlane; ++subset)
+    for (int child = 0; child < 2; ++child)
     {
-      ring(Sweep.FlatChildren[subset], plane);
+      ring(Sweep.FlatChildren[child], childPlane);
       if (isThresholded)
       {
-        ring(Sweep.SteepChildren[subset], plane);
+        ring(Sweep.SteepChildren[child], childPlane);
+      }
+    }
+    for (auto & children : Sweep.Children)
+    {
+      children[0] = childRow();
+      children[1] = childRow();
+    }
+    ring(rows.Values[0], childRow);
+    if (isThresholded)
+    {
+      for (int subset = 0; subset < SubsetsInPlane; ++subset)
+      {
         ring(Sweep.SteepWindows[subset].Pair, plane);
         ring(Sweep.SteepWindows[subset].Later, plane);
         Sweep.KeptSlopeSums[subset] = plane();
-        Sweep.Limited[0][subset] = plane();
-        Sweep.Limited[1][subset] = plane();
+        for (auto & limited : Sweep.Limited)
+        {
+          limited[subset] = Memory.Take(rowLength * SubdivisionSweep<TReal>::LimitedRows) + halo;
+        }
       }
-      for (auto & children : Sweep.Children)
-      {
-        children[0][subset] = row();
-        children[1][subset] = row();
-      }
-    }
-    ring(rows.Values[0], row);
-    ring(rows.Values[1], row);
-    if (isThresholded)
-    {
       for (int i = 0; i < 2; ++i)
       {
         ring(rows.Slope[i], row);
@@ -219,8 +234,9 @@ struct SubdivisionKernel<TReal>::Implementation
         ring(rows.SweepCurvature[i], row);
         rows.RowCurvature[i] = row();
       }
-      ring(rows.SecondDifferences[0], row);
-      ring(rows.SecondDifferences[1], row);
+      ring(rows.Values[1], childRow);
+      ring(rows.SecondDifferences[0], childRow);
+      ring(rows.SecondDifferences[1], childRow);
     }
     if (isBounded)
     {
@@ -258,7 +274,7 @@ SubdivisionKernel<TReal>::GetRecommendedTileSize(unsigned int numberOfAxes, std:
   // Found by measurement: rows that are long enough for memory to stream, and enough of them to make up for the halo.
   // Smaller tiles would fit a cache nearer to the core, but gain less there than they lose to the halo.
   width = numberOfAxes > 2 ? 256 : 1024;
-  height = numberOfAxes > 2 ? 32 : 1;
+  height = numberOfAxes > 2 ? 48 : 1;
 }
 
 template <typename TReal>
@@ -300,27 +316,17 @@ SubdivisionKernel<TReal>::AdvancePlane()
 }
 
 template <typename TReal>
-void
-SubdivisionKernel<TReal>::ComputeChildren(std::size_t row, unsigned int planes)
-{
-  m_Implementation->Steps.ComputeChildren(
-    m_Implementation->Sweep, static_cast<std::ptrdiff_t>(row), static_cast<int>(planes));
-}
-
-template <typename TReal>
 auto
-SubdivisionKernel<TReal>::GetChildren(unsigned int age) const -> ChildRows
+SubdivisionKernel<TReal>::ComputeChildren(std::size_t row, unsigned int rowChild, unsigned int planes) -> ChildRows
 {
   const auto & sweep = m_Implementation->Sweep;
-  ChildRows    children{};
-  for (int sweepChild = 0; sweepChild < 2; ++sweepChild)
+  m_Implementation->Steps.ComputeChildren(
+    sweep, static_cast<std::ptrdiff_t>(row), static_cast<int>(rowChild), static_cast<int>(planes));
+  ChildRows children;
+  for (unsigned int age = 0; age < PlanesPerStep; ++age)
   {
-    for (int rowChild = 0; rowChild < 2; ++rowChild)
-    {
-      const auto & planeChildren = sweep.Children[age][sweep.HasSweepAxis ? sweepChild : 0];
-      const int    lower = sweep.HasRowAxis ? rowChild * RowAxis : 0;
-      children.Rows[sweepChild][rowChild] = { planeChildren[lower], planeChildren[lower + LaneAxis] };
-    }
+    children.Rows[age][0] = sweep.Children[age][0];
+    children.Rows[age][1] = sweep.Children[age][1];
   }
   return children;
 }
@@ -330,12 +336,17 @@ template class SubdivisionKernel<double>;
 
 #define itkDefineSubdivisionConversions(TPixel, Name)                                                              \
   void ConvertRow(const TPixel * in, std::size_t count, float * out) { Target().Name.ConvertRow(in, count, out); } \
-  void InterleaveChildren(const float * lower, const float * upper, std::size_t count, TPixel * out)               \
+  void InterleaveChildren(const float * children, std::size_t count, TPixel * out)                                 \
   {                                                                                                                \
-    Target().Name.InterleaveChildren(lower, upper, count, out);                                                    \
+    Target().Name.InterleaveChildren(children, count, out);                                                        \
   }
 itkDefineSubdivisionConversions(std::uint8_t, UInt8) itkDefineSubdivisionConversions(std::int8_t, Int8)
   itkDefineSubdivisionConversions(std::uint16_t, UInt16) itkDefineSubdivisionConversions(std::int16_t, Int16)
     itkDefineSubdivisionConversions(float, Real)
+
+      void InterleaveChildren(const double * children, std::size_t count, double * out)
+{
+  Target().InterleaveDoubles(children, count, out);
+}
 
 } // namespace itk

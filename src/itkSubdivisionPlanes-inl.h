@@ -10,81 +10,131 @@ namespace itk
 namespace SUBDIVISION_TARGET
 {
 
-/** The children within a plane of a field of values and, by [subset in plane], of its limited second differences. */
-template <typename T, typename TPlanes>
+/** The length of a row of both children of every voxel along the lanes. */
+template <typename T>
+SUBDIVISION_INLINE std::ptrdiff_t
+                   ChildWidth(const SubdivisionSweep<T> & s)
+{
+  return 2 * ((s.Width + LaneCount<T>() - 1) / LaneCount<T>() * LaneCount<T>());
+}
+
+/** The children within one of the planes that are computed together, of rows of \c field and of its limited second
+ * differences; with a row axis, of the rows whose stencils these complete. */
+template <bool VRowAxis, typename T, typename TField>
 void
 FilterFields(SubdivisionSweep<T> & s,
-             const T * const       values,
-             T * const * const     secondDifferences,
-             const TPlanes &       children)
+             const int             plane,
+             const std::ptrdiff_t  begin,
+             const std::ptrdiff_t  end,
+             const TField &        field,
+             T * const             lowerChildren,
+             T * const             upperChildren)
 {
-  auto &     buffers = s.Rows;
-  const auto filterLanes =
-    [&](const T * const row, const T * const curvature, T * const lower, T * const upper) SUBDIVISION_ATTRIBUTE {
-      FilterRow(AlongLanes<T>{ row }, AlongLanes<T>{ curvature }, BSplineMask, s.Width, lower, upper);
-    };
-  if (!s.HasRowAxis)
+  const auto filterLanes = [&](const T * const row, const T * const curvature, T * const result) SUBDIVISION_ATTRIBUTE {
+    FilterRow<T>(
+      AlongLanes<T>{ row }, AlongLanes<T>{ curvature }, BSplineMask, s.Width, ChildrenAlongLanes<T>{ result });
+  };
+  if constexpr (!VRowAxis)
   {
-    filterLanes(values, secondDifferences[LaneAxis], children[0][0], children[LaneAxis][0]);
-    return;
+    filterLanes(field(0), LimitedRow(s, plane, LaneAxis, 0), lowerChildren);
   }
-  for (std::ptrdiff_t r = -ValueReach; r < s.Height + ValueReach; ++r)
+  else
   {
-    const std::ptrdiff_t here = r * s.Pitch;
-    buffers.Values[0].Rotate();
-    buffers.Values[1].Rotate();
-    filterLanes(values + here, secondDifferences[LaneAxis] + here, buffers.Values[0][0], buffers.Values[1][0]);
-    // The row before is the outermost one whose second differences count.
-    const std::ptrdiff_t before = here - s.Pitch;
-    buffers.SecondDifferences[0].Rotate();
-    buffers.SecondDifferences[1].Rotate();
-    if (r - 1 >= -SecondDifferenceReach)
+    // Copies, which the compiler keeps at hand.
+    auto valueRows = s.Rows.Values[plane];
+    auto secondDifferenceRows = s.Rows.SecondDifferences[plane];
+    for (std::ptrdiff_t r = begin; r < end; ++r)
     {
-      filterLanes(secondDifferences[RowAxis] + before,
-                  secondDifferences[BothAxesInPlane] + before,
-                  buffers.SecondDifferences[0][0],
-                  buffers.SecondDifferences[1][0]);
+      valueRows.Rotate();
+      filterLanes(field(r), LimitedRow(s, plane, LaneAxis, r), valueRows[0]);
+      if (HasRowFields(r))
+      {
+        const std::ptrdiff_t back = r - SubdivisionMasks::WindowRadius;
+        secondDifferenceRows.Rotate();
+        filterLanes(
+          LimitedRow(s, plane, RowAxis, back), LimitedRow(s, plane, BothAxesInPlane, back), secondDifferenceRows[0]);
+      }
+      const std::ptrdiff_t complete = r - SumReach;
+      if (complete >= 0)
+      {
+        const std::ptrdiff_t offset = complete * s.ChildPitch;
+        FilterRow<T>(RowsAround<3>(valueRows, SumReach - ValueReach, 0),
+                     RowsAround<2>(secondDifferenceRows, 0, 0),
+                     BSplineMask,
+                     ChildWidth(s),
+                     ChildrenAcrossRows<T>{ lowerChildren + offset, upperChildren + offset });
+      }
     }
-    for (int lane = 0; lane < SubdivisionMasks::Children && r - ValueReach >= 0; ++lane)
+    s.Rows.Values[plane] = valueRows;
+    s.Rows.SecondDifferences[plane] = secondDifferenceRows;
+  }
+}
+
+/** Calls \c limit for some rows and then \c filter for the same ones, until all are done: either step finds in the
+ * cache what it keeps from row to row. */
+template <typename TLimit, typename TFilter>
+SUBDIVISION_INLINE void
+LimitAndFilter(const std::ptrdiff_t first, const std::ptrdiff_t end, const TLimit & limit, const TFilter & filter)
+{
+  constexpr std::ptrdiff_t rowsPerStep = 8;
+  for (std::ptrdiff_t begin = first; begin < end; begin += rowsPerStep)
+  {
+    const std::ptrdiff_t stepEnd = std::min(begin + rowsPerStep, end);
+    for (std::ptrdiff_t r = begin; r < stepEnd; ++r)
     {
-      const std::ptrdiff_t back = here - ValueReach * s.Pitch;
-      FilterRow(RowsAround<3>(buffers.Values[lane], 0, 0),
-                RowsAround<2>(buffers.SecondDifferences[lane], 0, 0),
-                BSplineMask,
-                s.Width,
-                children[lane][0] + back,
-                children[lane + RowAxis][0] + back);
+      limit(r);
     }
+    filter(begin, stepEnd);
   }
 }
 
 /** The flat fields: their children within the plane. */
-template <typename T>
+template <bool VRowAxis, typename T>
 void
 AdvanceFlatFields(SubdivisionSweep<T> & s)
 {
   // The plane that is the outermost one for children whose thresholds are just complete.
   const T * const plane = s.HasSweepAxis ? s.Input[2] : s.Input[0];
-  s.HasRowAxis ? LimitFlatFields<true>(s, plane) : LimitFlatFields<false>(s, plane);
-  FilterFields(s, plane, s.Limited[0], s.FlatChildren);
+  const auto      limit = [&](const std::ptrdiff_t r) SUBDIVISION_ATTRIBUTE { LimitFlatFields<VRowAxis>(s, plane, r); };
+  const auto      filter = [&](const std::ptrdiff_t begin, const std::ptrdiff_t end) SUBDIVISION_ATTRIBUTE {
+    const auto values = [&](const std::ptrdiff_t r) { return plane + r * s.Pitch; };
+    FilterFields<VRowAxis>(s, 0, begin, end, values, s.FlatChildren[0][0], s.FlatChildren[1][0]);
+  };
+  // The first row is there for the differences between it and the next one only.
+  LimitAndFilter(VRowAxis ? -SumReach - 1 : 0, VRowAxis ? s.Height + SumReach : 1, limit, filter);
 }
 
 /** The steep fields of two planes: their children within the plane. */
-template <typename T>
+template <bool VRowAxis, typename T>
 void
 AdvanceSteepFields(SubdivisionSweep<T> & s, const bool areWindowsComplete)
 {
-  s.HasRowAxis ? LimitSteepFields<true>(s) : LimitSteepFields<false>(s);
-  for (const auto & limited : s.Limited)
+  for (auto & children : s.SteepChildren)
   {
-    for (auto & children : s.SteepChildren)
+    children.Rotate();
+    children.Rotate();
+  }
+  const auto limit = [&](const std::ptrdiff_t r) SUBDIVISION_ATTRIBUTE {
+    AdvanceSlopes(s, VRowAxis ? r + 1 : r);
+    LimitSteepFields<VRowAxis>(s, r);
+  };
+  const auto filter = [&](const std::ptrdiff_t begin, const std::ptrdiff_t end) SUBDIVISION_ATTRIBUTE {
+    for (int plane = 0; plane < 2 && areWindowsComplete; ++plane)
     {
-      children.Rotate();
+      const int  age = 1 - plane;
+      const auto slopes = [&](const std::ptrdiff_t r) { return LimitedRow(s, plane, NoAxisInPlane, r); };
+      FilterFields<VRowAxis>(s, plane, begin, end, slopes, s.SteepChildren[0][age], s.SteepChildren[1][age]);
     }
-    if (areWindowsComplete)
-    {
-      FilterFields(s, limited[NoAxisInPlane], limited, s.SteepChildren);
-    }
+  };
+  if constexpr (VRowAxis)
+  {
+    AdvanceSlopes(s, -SumReach - 1);
+  }
+  LimitAndFilter(VRowAxis ? -SumReach - 1 : 0, VRowAxis ? s.Height + SumReach : 1, limit, filter);
+  for (auto & window : s.SteepWindows)
+  {
+    window.Pair.Rotate();
+    window.Later.Rotate();
   }
 }
 
@@ -125,36 +175,27 @@ template <typename T>
 void
 AdvanceValues(SubdivisionSweep<T> & s, const SharedMask<2> & mask)
 {
-  auto & buffers = s.Rows;
+  auto &     buffers = s.Rows;
+  const auto filterLanes = [&](const T * const row, T * const result) SUBDIVISION_ATTRIBUTE {
+    FilterRow<T>(AlongLanes<T>{ row }, NoSecondDifferences{}, mask, s.Width, ChildrenAlongLanes<T>{ result });
+  };
   if (!s.HasRowAxis)
   {
-    FilterRow(AlongLanes<T>{ s.Input[0] },
-              NoSecondDifferences{},
-              mask,
-              s.Width,
-              s.FlatChildren[0][0],
-              s.FlatChildren[LaneAxis][0]);
+    filterLanes(s.Input[0], s.FlatChildren[0][0]);
     return;
   }
   for (std::ptrdiff_t r = -ValueReach; r < s.Height + ValueReach; ++r)
   {
     buffers.Values[0].Rotate();
-    buffers.Values[1].Rotate();
-    FilterRow(AlongLanes<T>{ s.Input[0] + r * s.Pitch },
-              NoSecondDifferences{},
-              mask,
-              s.Width,
-              buffers.Values[0][0],
-              buffers.Values[1][0]);
-    for (int lane = 0; lane < SubdivisionMasks::Children && r - ValueReach >= 0; ++lane)
+    filterLanes(s.Input[0] + r * s.Pitch, buffers.Values[0][0]);
+    if (r - ValueReach >= 0)
     {
-      const std::ptrdiff_t back = (r - ValueReach) * s.Pitch;
-      FilterRow(RowsAround<3>(buffers.Values[lane], 0, 0),
-                NoSecondDifferences{},
-                mask,
-                s.Width,
-                s.FlatChildren[lane][0] + back,
-                s.FlatChildren[lane + RowAxis][0] + back);
+      const std::ptrdiff_t back = (r - ValueReach) * s.ChildPitch;
+      FilterRow<T>(RowsAround<3>(buffers.Values[0], 0, 0),
+                   NoSecondDifferences{},
+                   mask,
+                   ChildWidth(s),
+                   ChildrenAcrossRows<T>{ s.FlatChildren[0][0] + back, s.FlatChildren[1][0] + back });
     }
   }
 }
@@ -177,11 +218,12 @@ AdvancePlane(SubdivisionSweep<T> & s)
     constexpr std::ptrdiff_t steepFrom = flatFrom + SubdivisionMasks::WindowRadius;
     if (!s.HasSweepAxis || s.Planes >= flatFrom)
     {
-      AdvanceFlatFields(s);
+      s.HasRowAxis ? AdvanceFlatFields<true>(s) : AdvanceFlatFields<false>(s);
     }
     if (s.HasSweepAxis && s.IsPairComplete())
     {
-      AdvanceSteepFields(s, s.Planes >= steepFrom);
+      const bool areWindowsComplete = s.Planes >= steepFrom;
+      s.HasRowAxis ? AdvanceSteepFields<true>(s, areWindowsComplete) : AdvanceSteepFields<false>(s, areWindowsComplete);
     }
   }
   else
@@ -198,15 +240,12 @@ AdvancePlane(SubdivisionSweep<T> & s)
  * as they are. */
 template <typename T>
 void
-BoundChildren(const SubdivisionSweep<T> & s,
-              const std::ptrdiff_t        offset,
-              const int                   age,
-              const int                   sweepChildren,
-              const int                   planeChildren)
+BoundChildren(const SubdivisionSweep<T> & s, const std::ptrdiff_t row, const int age)
 {
-  const int  newest = s.HasSweepAxis ? age + 2 : age;
-  const auto smallest = RowsAround<1>(s.SmallestNeighbour, newest, offset);
-  const auto largest = RowsAround<1>(s.LargestNeighbour, newest, offset);
+  const int            newest = s.HasSweepAxis ? age + 2 : age;
+  const std::ptrdiff_t offset = row * s.Pitch;
+  const auto           smallest = RowsAround<1>(s.SmallestNeighbour, newest, offset);
+  const auto           largest = RowsAround<1>(s.LargestNeighbour, newest, offset);
   for (std::ptrdiff_t x = 0; x < s.Width; x += LaneCount<T>())
   {
     auto low = smallest(x, 1);
@@ -216,60 +255,56 @@ BoundChildren(const SubdivisionSweep<T> & s,
       low = OrderedMin(OrderedMin(low, smallest(x, 0)), smallest(x, -1));
       high = OrderedMax(OrderedMax(high, largest(x, 0)), largest(x, -1));
     }
-    for (int sweep = 0; sweep < sweepChildren; ++sweep)
+    for (int child = 0; child < (s.HasSweepAxis ? 4 : 2); ++child)
     {
-      for (int child = 0; child < planeChildren; ++child)
-      {
-        T * const  values = s.Children[age][sweep][child] + x;
-        const auto value = Load(values);
-        Store(IfFinite(value, OrderedMin(OrderedMax(value, low), high)), values);
-      }
+      T * const  values = s.Children[age][child / 2] + 2 * x + child % 2 * LaneCount<T>();
+      const auto value = Load(values);
+      Store(IfFinite(value, OrderedMin(OrderedMax(value, low), high)), values);
     }
   }
 }
 
-/** The children of one row, in a given number of planes: those whose stencils were complete last. */
+/** Of the planes that were completed last, one row of children within the plane, and its children along the sweep. */
 template <typename T>
 void
-ComputeChildren(const SubdivisionSweep<T> & s, const std::ptrdiff_t row, const int planes)
+ComputeChildren(const SubdivisionSweep<T> & s, const std::ptrdiff_t row, const int rowChild, const int planes)
 {
   using Scheme = NonOscillatorySubdivisionImageFilterEnums::Scheme;
-  const std::ptrdiff_t offset = row * s.Pitch;
-  const int            planeChildren = s.HasRowAxis ? 4 : 2;
-  for (int child = 0; child < planeChildren; ++child)
+  const std::ptrdiff_t childWidth = ChildWidth(s);
+  // Planes share most of what they read: a strip of it stays in the first-level cache.
+  constexpr std::ptrdiff_t strip = 256;
+  for (std::ptrdiff_t x = 0; x < childWidth; x += strip)
   {
-    // One plane after the other: they share most of what they read.
+    const std::ptrdiff_t width = std::min(strip, childWidth - x);
+    const std::ptrdiff_t offset = row * s.ChildPitch + x;
     for (int age = planes - 1; age >= 0; --age)
     {
-      T * const lower = s.Children[age][0][child];
-      T * const upper = s.Children[age][1][child];
+      const ChildrenAcrossRows<T> children{ s.Children[age][0] + x, s.Children[age][1] + x };
       if (!s.HasSweepAxis)
       {
-        CopyRow(s.FlatChildren[child][age] + offset, s.Width, lower);
+        CopyRow(s.FlatChildren[rowChild][age] + offset, width, s.Children[age][0] + x);
       }
       else if (s.Scheme == Scheme::NonOscillatory)
       {
-        FilterRow(RowsAround<3>(s.FlatChildren[child], age, offset),
-                  RowsAround<2>(s.SteepChildren[child], age, offset),
-                  BSplineMask,
-                  s.Width,
-                  lower,
-                  upper);
+        FilterRow<T>(RowsAround<3>(s.FlatChildren[rowChild], age, offset),
+                     RowsAround<2>(s.SteepChildren[rowChild], age, offset),
+                     BSplineMask,
+                     width,
+                     children);
       }
       else
       {
-        FilterRow(RowsAround<3>(s.FlatChildren[child], age, offset),
-                  NoSecondDifferences{},
-                  s.Scheme == Scheme::BSpline ? BSplineMask : LinearMask,
-                  s.Width,
-                  lower,
-                  upper);
+        FilterRow<T>(RowsAround<3>(s.FlatChildren[rowChild], age, offset),
+                     NoSecondDifferences{},
+                     s.Scheme == Scheme::BSpline ? BSplineMask : LinearMask,
+                     width,
+                     children);
       }
     }
   }
-  for (int age = planes - 1; age >= 0 && s.Scheme == Scheme::BoundedLinear; --age)
+  for (int age = 0; age < planes && s.Scheme == Scheme::BoundedLinear; ++age)
   {
-    BoundChildren(s, offset, age, s.HasSweepAxis ? 2 : 1, planeChildren);
+    BoundChildren(s, row, age);
   }
 }
 

@@ -11,8 +11,8 @@ namespace itk
 namespace SUBDIVISION_TARGET
 {
 
-/** Where the loop over a row begins that is to reach some way beyond the tile: at a whole vector, since loads and stores
- * across cache lines cost much more than the lanes that are computed for nothing. */
+/** Where the loop over a row begins that is to reach some way beyond the tile: at a whole vector, since loads and
+ * stores across cache lines cost much more than the lanes that are computed for nothing. */
 template <typename T>
 SUBDIVISION_INLINE std::ptrdiff_t
                    FirstVector(const std::ptrdiff_t reach)
@@ -45,6 +45,36 @@ struct AcrossRows
                      operator()(std::ptrdiff_t x, int offset) const
   {
     return Load(Row[VRadius - offset] + x);
+  }
+};
+
+/** Keeps both children of voxels along their row: a vector of lower children and one of upper ones in turns, which
+ * InterleaveChildren brings into order at the very end. */
+template <typename T>
+struct ChildrenAlongLanes
+{
+  T * Row;
+
+  SUBDIVISION_INLINE void
+  operator()(std::ptrdiff_t x, Vector<T> before, Vector<T> after) const
+  {
+    Store(before, Row + 2 * x);
+    Store(after, Row + 2 * x + LaneCount<T>());
+  }
+};
+
+/** Keeps both children of voxels across rows: each in a row of its own. */
+template <typename T>
+struct ChildrenAcrossRows
+{
+  T * Before;
+  T * After;
+
+  SUBDIVISION_INLINE void
+  operator()(std::ptrdiff_t x, Vector<T> before, Vector<T> after) const
+  {
+    Store(before, Before + x);
+    Store(after, After + x);
   }
 };
 
@@ -86,14 +116,13 @@ constexpr auto SecondDifferenceMask = SharedMask<1>::FromMask(SubdivisionMasks::
 
 /** Both children of every voxel of a row along one axis: the values under a mask of six taps, plus the second
  * differences, if any, under theirs. */
-template <typename T, typename TValues, typename TSecondDifferences>
+template <typename T, typename TValues, typename TSecondDifferences, typename TChildren>
 SUBDIVISION_INLINE void
 FilterRow(const TValues            values,
           const TSecondDifferences secondDifferences,
           const SharedMask<2> &    mask,
           const std::ptrdiff_t     width,
-          T * const __restrict lower,
-          T * const __restrict upper)
+          const TChildren          children)
 {
   const auto centre = Broadcast<T>(mask.Centre);
   const auto pair1 = Broadcast<T>(mask.Pair[0]);
@@ -132,10 +161,7 @@ FilterRow(const TValues            values,
       rightOfCentre = MulAdd(curvedOuter, secondDifferences(x, 2), rightOfCentre);
       leftOfCentre = MulAdd(curvedOuter, secondDifferences(x, -2), leftOfCentre);
     }
-    const auto childBefore = Add(even, leftOfCentre);
-    const auto childAfter = Add(even, rightOfCentre);
-    Store(childBefore, lower + x);
-    Store(childAfter, upper + x);
+    children(x, Add(even, leftOfCentre), Add(even, rightOfCentre));
   }
 }
 
@@ -158,10 +184,7 @@ SecondDifference(const TValues values, const std::ptrdiff_t x)
 /** Window minima of a row or of several. */
 template <typename T, typename TSums>
 SUBDIVISION_INLINE void
-WindowMinimumRow(const TSums          sums,
-                 const std::ptrdiff_t reach,
-                 const std::ptrdiff_t width,
-                 T * const __restrict minimum)
+WindowMinimumRow(const TSums sums, const std::ptrdiff_t reach, const std::ptrdiff_t width, T * const __restrict minimum)
 {
   for (std::ptrdiff_t x = FirstVector<T>(reach); x < width + reach; x += LaneCount<T>())
   {

@@ -57,10 +57,11 @@ enum SubdivisionAxesInPlane
 
 /** All that a sweep through a tile keeps, as plain data that the code of every target can use.
  *
- * Planes and rows are addressed by their voxel (0, 0) or 0; row r of a plane begins r * Pitch further on. What is named
- * after a plane index t is relative to the newest input plane. A field of the scheme (docs/scheme.md, section 3)
- * belongs to a subset A of the axes; "flat" fields are those whose subset lacks the sweep axis, "steep" ones those
- * whose subset has it. */
+ * Planes and rows are addressed by their voxel (0, 0) or 0; row r of a plane begins r * Pitch further on, or r *
+ * ChildPitch in planes of children, whose rows hold both children of every voxel along the lanes: a vector of lower
+ * ones and a vector of upper ones in turns. What is named after a plane index t is relative to the newest input plane.
+ * A field of the scheme (docs/scheme.md, section 3) belongs to a subset A of the axes; "flat" fields are those whose
+ * subset lacks the sweep axis, "steep" ones those whose subset has it. */
 template <typename T>
 struct SubdivisionSweep
 {
@@ -70,6 +71,8 @@ struct SubdivisionSweep
   static constexpr int ValuePlanes = 7 + PlanesPerStep - 1;
   static constexpr int SecondDifferencePlanes = 5 + PlanesPerStep - 1;
   static constexpr int NeighbourPlanes = 5 + PlanesPerStep - 1;
+  /** A power of two that holds the rows that are limited before they are filtered, and those that lag behind. */
+  static constexpr std::ptrdiff_t LimitedRows = 16;
 
   NonOscillatorySubdivisionImageFilterEnums::Scheme Scheme;
 
@@ -79,6 +82,7 @@ struct SubdivisionSweep
   std::ptrdiff_t Width;
   std::ptrdiff_t Height;
   std::ptrdiff_t Pitch;
+  std::ptrdiff_t ChildPitch;
 
   /** Planes taken since the tile began, and planes that the tile needs, with its halo. */
   std::ptrdiff_t Planes;
@@ -95,9 +99,9 @@ struct SubdivisionSweep
   /** The input planes; the caller writes entry 0. */
   SubdivisionRing<T, ThresholdedInputs> Input;
 
-  /** Children within their plane of the flat fields' sum, by [child], and of the steep fields' sum. */
-  SubdivisionRing<T, ValuePlanes>            FlatChildren[SubsetsInPlane];
-  SubdivisionRing<T, SecondDifferencePlanes> SteepChildren[SubsetsInPlane];
+  /** Children within their plane of the flat fields' sum, by [child across rows], and of the steep fields' sum. */
+  SubdivisionRing<T, ValuePlanes>            FlatChildren[2];
+  SubdivisionRing<T, SecondDifferencePlanes> SteepChildren[2];
 
   /** Limited fields, by [plane: earlier, later][subset in plane]; only the steep ones need two planes, and the flat
    * field of no axis is the input itself. */
@@ -131,15 +135,15 @@ struct SubdivisionSweep
     SubdivisionRing<T, 5> SweepCurvature[2];
     T *                   RowCurvature[2];
     /** Children along the lanes of the fields without and with the row axis. */
-    SubdivisionRing<T, 7> Values[2];
+    SubdivisionRing<T, 8> Values[2];
     SubdivisionRing<T, 5> SecondDifferences[2];
     /** Smallest and largest neighbour along the lanes. */
     SubdivisionRing<T, 3> Smallest;
     SubdivisionRing<T, 3> Largest;
   } Rows;
 
-  /** Children of one row, by [age of the plane][child along the sweep][child in the plane]. */
-  T * Children[PlanesPerStep][2][SubsetsInPlane];
+  /** Children of one row of children within their plane, by [age of the plane][child along the sweep]. */
+  T * Children[PlanesPerStep][2];
 };
 
 /** What one instruction set offers: the two steps of a sweep and the conversions of pixels. */
@@ -147,14 +151,14 @@ template <typename T>
 struct SubdivisionSweepSteps
 {
   void (*AdvancePlane)(SubdivisionSweep<T> &);
-  void (*ComputeChildren)(const SubdivisionSweep<T> &, std::ptrdiff_t row, int planes);
+  void (*ComputeChildren)(const SubdivisionSweep<T> &, std::ptrdiff_t row, int rowChild, int planes);
 };
 
 template <typename TPixel>
 struct SubdivisionConversion
 {
   void (*ConvertRow)(const TPixel *, std::size_t, float *);
-  void (*InterleaveChildren)(const float *, const float *, std::size_t, TPixel *);
+  void (*InterleaveChildren)(const float *, std::size_t, TPixel *);
 };
 
 struct SubdivisionTarget
@@ -167,6 +171,8 @@ struct SubdivisionTarget
   SubdivisionConversion<std::uint16_t> UInt16;
   SubdivisionConversion<std::int16_t>  Int16;
   SubdivisionConversion<float>         Real;
+
+  void (*InterleaveDoubles)(const double *, std::size_t, double *);
 };
 
 /** The target that needs nothing but C++. */

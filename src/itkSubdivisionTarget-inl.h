@@ -20,7 +20,7 @@ template <typename TPixel>
 constexpr SubdivisionConversion<TPixel>
 Conversion()
 {
-  return { &ConvertRow<TPixel>, &InterleaveChildren<TPixel> };
+  return { &ConvertRow<TPixel>, &InterleaveChildren<float, TPixel> };
 }
 
 constexpr SubdivisionTarget
@@ -33,7 +33,8 @@ MakeTarget(const char * name)
            Conversion<std::int8_t>(),
            Conversion<std::uint16_t>(),
            Conversion<std::int16_t>(),
-           Conversion<float>() };
+           Conversion<float>(),
+           &InterleaveChildren<double, double> };
 }
 
 } // namespace SUBDIVISION_TARGET

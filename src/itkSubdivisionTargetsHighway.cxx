@@ -13,6 +13,7 @@
 #include "itkSubdivisionMasks.h"
 #include "itkSubdivisionSweep.h"
 
+#include <algorithm>
 #include <cstring>
 #include <type_traits>
 

@@ -6,6 +6,7 @@
 #include "itkSubdivisionRows-inl.h"
 #include "itkSubdivisionSweep.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace itk
@@ -106,57 +107,61 @@ SumFlatDifferences(const typename SubdivisionSweep<T>::RowBuffers & buffers,
   }
 }
 
-/** The limited flat fields of a plane. */
-template <bool VRowAxis, typename T>
-void
-LimitFlatFields(SubdivisionSweep<T> & s, const T * const plane)
+/** A row of a limited field of one of the planes that are computed together. Rows take turns in little memory. */
+template <typename T>
+SUBDIVISION_INLINE T *
+LimitedRow(const SubdivisionSweep<T> & s, const int plane, const int subset, const std::ptrdiff_t row)
 {
-  auto &               buffers = s.Rows;
-  if (!VRowAxis)
+  constexpr std::ptrdiff_t rows = SubdivisionSweep<T>::LimitedRows;
+  return s.Limited[plane][subset] + (row & (rows - 1)) * s.Pitch;
+}
+
+/** Whether the fields with the row axis are complete, and needed, of the row that lies a window's radius before. */
+SUBDIVISION_INLINE bool
+HasRowFields(const std::ptrdiff_t row)
+{
+  return row - SubdivisionMasks::WindowRadius >= -SecondDifferenceReach;
+}
+
+/** The limited flat fields of a row of a plane; those with the row axis, of the row a window's radius before. */
+template <bool VRowAxis, typename T>
+SUBDIVISION_INLINE void
+LimitFlatFields(SubdivisionSweep<T> & s, const T * const plane, const std::ptrdiff_t r)
+{
+  auto &          buffers = s.Rows;
+  const T * const row = plane + r * s.Pitch;
+  if constexpr (VRowAxis)
   {
-    SumFlatDifferences<false>(buffers, plane, plane, s.Width);
-    LimitRow(RowCurvature<T>{ plane },
-             AlongLanes<T>{ buffers.LaneSums[0] },
-             s.Tension,
-             ValueReach,
-             s.Width,
-             s.Limited[0][LaneAxis]);
-    return;
-  }
-  // The first row is there for what it keeps for the next one.
-  for (std::ptrdiff_t r = -SumReach - 1; r < s.Height + SumReach; ++r)
-  {
-    const std::ptrdiff_t here = r * s.Pitch;
     buffers.RowSums[0].Rotate();
     buffers.BothMinima[0].Rotate();
-    SumFlatDifferences<true>(buffers, plane + here, plane + here + s.Pitch, s.Width);
+  }
+  SumFlatDifferences<VRowAxis>(buffers, row, row + s.Pitch, s.Width);
+  LimitRow(RowCurvature<T>{ row },
+           AlongLanes<T>{ buffers.LaneSums[0] },
+           s.Tension,
+           ValueReach,
+           s.Width,
+           LimitedRow(s, 0, LaneAxis, r));
+  if constexpr (VRowAxis)
+  {
     WindowMinimumRow(AlongLanes<T>{ buffers.BothSums[0] }, ValueReach, s.Width, buffers.BothMinima[0][0]);
-    if (r >= -ValueReach && r < s.Height + ValueReach)
+    if (HasRowFields(r))
     {
-      LimitRow(RowCurvature<T>{ plane + here },
-               AlongLanes<T>{ buffers.LaneSums[0] },
-               s.Tension,
-               ValueReach,
-               s.Width,
-               s.Limited[0][LaneAxis] + here);
-    }
-    if (r - SubdivisionMasks::WindowRadius >= -SecondDifferenceReach)
-    {
-      const std::ptrdiff_t back = here - SubdivisionMasks::WindowRadius * s.Pitch;
-      const T * const      curvature = buffers.RowCurvature[0];
-      SecondDifferenceRow(RowsOfPlane(plane + back, s.Pitch), ValueReach + 1, s.Width, buffers.RowCurvature[0]);
+      T * const curvature = buffers.RowCurvature[0];
+      SecondDifferenceRow(
+        RowsOfPlane(row - SubdivisionMasks::WindowRadius * s.Pitch, s.Pitch), ValueReach + 1, s.Width, curvature);
       LimitRow(RowValues<T>{ curvature },
                RowsAround<2>(buffers.RowSums[0], 0, 0),
                s.Tension,
                ValueReach,
                s.Width,
-               s.Limited[0][RowAxis] + back);
+               LimitedRow(s, 0, RowAxis, r - SubdivisionMasks::WindowRadius));
       LimitRow(RowCurvature<T>{ curvature },
                RowsAround<2>(buffers.BothMinima[0], 0, 0),
                s.Tension,
                ValueReach,
                s.Width,
-               s.Limited[0][BothAxesInPlane] + back);
+               LimitedRow(s, 0, BothAxesInPlane, r - SubdivisionMasks::WindowRadius));
     }
   }
 }
@@ -180,9 +185,10 @@ AdvanceWindow(const SubdivisionPlaneWindow<T> & window, const std::ptrdiff_t off
 /** Of a row, the slopes between the newest planes, their curvature along the sweep, and that limited. */
 template <typename T>
 SUBDIVISION_INLINE void
-AdvanceSlopes(SubdivisionSweep<T> & s, const std::ptrdiff_t here)
+AdvanceSlopes(SubdivisionSweep<T> & s, const std::ptrdiff_t r)
 {
-  auto & buffers = s.Rows;
+  const std::ptrdiff_t here = r * s.Pitch;
+  auto &               buffers = s.Rows;
   for (int plane = 0; plane < 2; ++plane)
   {
     buffers.Slope[plane].Rotate();
@@ -192,8 +198,8 @@ AdvanceSlopes(SubdivisionSweep<T> & s, const std::ptrdiff_t here)
   T * const       laterSlope = buffers.Slope[1][0];
   T * const       earlierCurvature = buffers.SweepCurvature[0][0];
   T * const       laterCurvature = buffers.SweepCurvature[1][0];
-  T * const       earlierLimited = s.Limited[0][NoAxisInPlane] + here;
-  T * const       laterLimited = s.Limited[1][NoAxisInPlane] + here;
+  T * const       earlierLimited = LimitedRow(s, 0, NoAxisInPlane, r);
+  T * const       laterLimited = LimitedRow(s, 1, NoAxisInPlane, r);
   const T * const input0 = s.Input[0] + here;
   const T * const input1 = s.Input[1] + here;
   const T * const input2 = s.Input[2] + here;
@@ -269,77 +275,63 @@ template <typename T, typename TField, typename TSums>
 SUBDIVISION_INLINE void
 LimitSteepRows(SubdivisionSweep<T> & s,
                const int             subset,
-               const std::ptrdiff_t  offset,
+               const std::ptrdiff_t  r,
                const TField          earlierField,
                const TField          laterField,
                const TSums           earlierSums,
                const TSums           laterSums)
 {
   const auto & window = s.SteepWindows[subset];
-  T * const    earlierLimited = s.Limited[0][subset] + offset;
-  T * const    laterLimited = s.Limited[1][subset] + offset;
+  T * const    earlierLimited = LimitedRow(s, 0, subset, r);
+  T * const    laterLimited = LimitedRow(s, 1, subset, r);
   const auto   tension = Broadcast<T>(s.Tension);
   for (std::ptrdiff_t x = FirstVector<T>(ValueReach); x < s.Width + ValueReach; x += LaneCount<T>())
   {
     auto earlier = WindowMinimum(earlierSums, x);
     auto later = WindowMinimum(laterSums, x);
-    AdvanceWindow(window, offset + x, earlier, later);
+    AdvanceWindow(window, r * s.Pitch + x, earlier, later);
     Store(Limit(earlierField(x), tension, earlier), earlierLimited + x);
     Store(Limit(laterField(x), tension, later), laterLimited + x);
   }
 }
 
-/** The limited steep fields of the two planes whose windows the newest planes complete. */
+/** The limited steep fields of a row of the two planes whose windows the newest planes complete; those with the row
+ * axis, of the row a window's radius before. The slopes of the next row are there. */
 template <bool VRowAxis, typename T>
-void
-LimitSteepFields(SubdivisionSweep<T> & s)
+SUBDIVISION_INLINE void
+LimitSteepFields(SubdivisionSweep<T> & s, const std::ptrdiff_t r)
 {
-  auto & buffers = s.Rows;
-  if (VRowAxis)
+  constexpr int row = VRowAxis ? 1 : 0;
+  auto &        buffers = s.Rows;
+  if constexpr (VRowAxis)
   {
-    // Only for the differences towards the first row.
-    AdvanceSlopes(s, (-SumReach - 1) * s.Pitch);
-  }
-  for (std::ptrdiff_t r = VRowAxis ? -SumReach - 1 : 0; r < (VRowAxis ? s.Height + SumReach : 1); ++r)
-  {
-    const std::ptrdiff_t here = r * s.Pitch;
-    AdvanceSlopes(s, VRowAxis ? here + s.Pitch : here);
-    if (VRowAxis)
-    {
-      for (int plane = 0; plane < 2; ++plane)
-      {
-        buffers.RowSums[plane].Rotate();
-        buffers.BothMinima[plane].Rotate();
-      }
-    }
-    SumSteepDifferences<VRowAxis>(s, here);
-    const T * const earlierCurvature = buffers.SweepCurvature[0][VRowAxis ? 1 : 0];
-    const T * const laterCurvature = buffers.SweepCurvature[1][VRowAxis ? 1 : 0];
-    LimitSteepRows(s,
-                   LaneAxis,
-                   here,
-                   RowCurvature<T>{ earlierCurvature },
-                   RowCurvature<T>{ laterCurvature },
-                   AlongLanes<T>{ buffers.LaneSums[0] },
-                   AlongLanes<T>{ buffers.LaneSums[1] });
-    if (!VRowAxis)
-    {
-      break;
-    }
     for (int plane = 0; plane < 2; ++plane)
     {
-      WindowMinimumRow(
-        AlongLanes<T>{ buffers.BothSums[plane] }, ValueReach, s.Width, buffers.BothMinima[plane][0]);
+      buffers.RowSums[plane].Rotate();
+      buffers.BothMinima[plane].Rotate();
     }
-    if (r - SubdivisionMasks::WindowRadius >= -SecondDifferenceReach)
+  }
+  SumSteepDifferences<VRowAxis>(s, r * s.Pitch);
+  LimitSteepRows(s,
+                 LaneAxis,
+                 r,
+                 RowCurvature<T>{ buffers.SweepCurvature[0][row] },
+                 RowCurvature<T>{ buffers.SweepCurvature[1][row] },
+                 AlongLanes<T>{ buffers.LaneSums[0] },
+                 AlongLanes<T>{ buffers.LaneSums[1] });
+  if constexpr (VRowAxis)
+  {
+    for (int plane = 0; plane < 2; ++plane)
     {
-      const std::ptrdiff_t back = here - SubdivisionMasks::WindowRadius * s.Pitch;
+      WindowMinimumRow(AlongLanes<T>{ buffers.BothSums[plane] }, ValueReach, s.Width, buffers.BothMinima[plane][0]);
+    }
+    if (HasRowFields(r))
+    {
+      const std::ptrdiff_t back = r - SubdivisionMasks::WindowRadius;
       for (int plane = 0; plane < 2; ++plane)
       {
-        SecondDifferenceRow(RowsAround<1>(buffers.SweepCurvature[plane], 2, 0),
-                            ValueReach + 1,
-                            s.Width,
-                            buffers.RowCurvature[plane]);
+        SecondDifferenceRow(
+          RowsAround<1>(buffers.SweepCurvature[plane], 2, 0), ValueReach + 1, s.Width, buffers.RowCurvature[plane]);
       }
       LimitSteepRows(s,
                      RowAxis,
@@ -356,11 +348,6 @@ LimitSteepFields(SubdivisionSweep<T> & s)
                      RowsAround<2>(buffers.BothMinima[0], 0, 0),
                      RowsAround<2>(buffers.BothMinima[1], 0, 0));
     }
-  }
-  for (auto & window : s.SteepWindows)
-  {
-    window.Pair.Rotate();
-    window.Later.Rotate();
   }
 }
 

@@ -3,6 +3,11 @@
 
 #include "SubdivisionTestHelpers.h"
 
+#include "itkCopyPastCache.h"
+
+#include <algorithm>
+#include <numeric>
+
 using namespace SubdivisionTest;
 
 namespace
@@ -75,6 +80,20 @@ DelicateConversions()
            { -0.0, TInteger{ 0 } } };
 }
 
+/** Room for rows of children of up to 70 voxels, in whole vectors. */
+constexpr std::size_t RowLength = 2 * (70 + 16);
+
+/** Where in a row of the kernel's children each child stands, lower, upper, lower, ... */
+std::vector<std::size_t>
+FindChildren(std::size_t count)
+{
+  std::vector<float> row(RowLength);
+  std::iota(row.begin(), row.end(), 0.0f);
+  std::vector<float> children(2 * count);
+  itk::InterleaveChildren(row.data(), count, children.data());
+  return { children.begin(), children.end() };
+}
+
 /** The conversion of rows in vector code, at every position of rows of every length up to 70. */
 template <typename TInteger>
 void
@@ -83,21 +102,32 @@ ExpectRowsConverted()
   const auto values = DelicateConversions<TInteger>();
   for (std::size_t count = 1; count <= 70; ++count)
   {
-    std::vector<float>    lower(count);
-    std::vector<float>    upper(count);
+    const auto            places = FindChildren(count);
+    std::vector<float>    row(RowLength);
     std::vector<TInteger> out(2 * count + 1, TInteger{ 77 });
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < 2 * count; ++i)
     {
-      lower[i] = static_cast<float>(values[(i + count) % values.size()].first);
-      upper[i] = static_cast<float>(values[(2 * i + 3) % values.size()].first);
+      row[places[i]] = static_cast<float>(values[(i + count) % values.size()].first);
     }
-    itk::InterleaveChildren(lower.data(), upper.data(), count, out.data());
-    for (std::size_t i = 0; i < count; ++i)
+    itk::InterleaveChildren(row.data(), count, out.data());
+    for (std::size_t i = 0; i < 2 * count; ++i)
     {
-      EXPECT_EQ(+out[2 * i], +values[(i + count) % values.size()].second) << lower[i] << ", row of " << count;
-      EXPECT_EQ(+out[2 * i + 1], +values[(2 * i + 3) % values.size()].second) << upper[i] << ", row of " << count;
+      EXPECT_EQ(+out[i], +values[(i + count) % values.size()].second) << row[places[i]] << ", row of " << count;
     }
     EXPECT_EQ(+out[2 * count], 77) << "written past a row of " << count;
+  }
+}
+
+/** Every child of a row is there once. */
+void
+ExpectChildrenOnce()
+{
+  for (std::size_t count = 1; count <= 70; ++count)
+  {
+    auto places = FindChildren(count);
+    std::sort(places.begin(), places.end());
+    EXPECT_EQ(std::adjacent_find(places.begin(), places.end()), places.end()) << count;
+    EXPECT_LT(places.back(), RowLength);
   }
 }
 
@@ -123,8 +153,28 @@ TEST(NonOscillatorySubdivisionConversion, RowsInVectorCode)
     ExpectRowsConverted<std::uint8_t>();
     ExpectRowsConverted<std::int16_t>();
     ExpectRowsConverted<std::uint16_t>();
+    ExpectChildrenOnce();
   }
   itk::SetSubdivisionTarget("");
+}
+
+/** Copies of every length to every place within a cache line, with nothing written around them. */
+TEST(NonOscillatorySubdivisionConversion, CopiesPastTheCache)
+{
+  std::vector<unsigned char> from(300);
+  std::iota(from.begin(), from.end(), static_cast<unsigned char>(1));
+  for (std::size_t begin = 0; begin <= 64; ++begin)
+  {
+    for (std::size_t bytes = 0; bytes <= 200; bytes += 1 + bytes / 8)
+    {
+      std::vector<unsigned char> to(400, 0);
+      std::vector<unsigned char> expected(400, 0);
+      std::copy_n(from.data() + 3, bytes, expected.data() + begin);
+      itk::CopyPastCache(from.data() + 3, bytes, to.data() + begin);
+      itk::FinishCopiesPastCache();
+      ASSERT_EQ(to, expected) << bytes << " bytes at " << begin;
+    }
+  }
 }
 
 TEST(NonOscillatorySubdivisionConversion, ValuesOneByOne)

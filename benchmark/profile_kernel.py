@@ -17,13 +17,11 @@ from pathlib import Path
 # An instruction belongs to the stage of the innermost function, inlined or not, that is named here.
 STAGES = {
     "gather": r"SubdivisionTileReader|::ConvertRow",
-    "scatter": r"SubdivisionTileWriter|InterleaveChildren",
-    "pass along lanes": r"::FilterLanes",
-    "pass across rows": r"::FilterAcrossRows",
-    "passes along lanes and across rows": r"::AdvanceValues",
+    "scatter": r"SubdivisionTileWriter|InterleaveChildren|CopyPastCache",
+    "pass along lanes": r"::FilterRow<.*ChildrenAlongLanes",
+    "pass across rows": r"::FilterFields|::AdvanceValues",
     "bounds": r"::AdvanceNeighbours|::BoundChildren",
-    "thresholds": r"::SumDifferencesOfRow|::WindowMinimumRow|::SecondDifferenceRow|::LimitRow"
-    r"|::AdvanceSlope|::AdvanceSteepMinima",
+    "thresholds": r"::Limit(Flat|Steep)Fields|::AdvanceSlopes",
     "pass across planes": r"itk::\w+::ComputeChildren",
     "sweep": r"::AdvanceFlatFields|::AdvanceSteepFields|::AdvancePlane|SubdivisionKernel<",
     "tiles": r"NonOscillatorySubdivisionImageFilter",

@@ -54,7 +54,7 @@ namespace itk
  *
  * The result depends on the input and the options alone, never on the number of threads, the region asked for or how
  * the image was streamed. The filter streams: it requests the exact stencil of what it is asked for, as the boundary
- * condition needs it.
+ * condition needs it. Between updates it keeps what it computes in, some megabytes for each thread.
  *
  * \throw itk::ExceptionObject on update, when an option is out of its range (see its setter), the input is missing or
  * empty, or the pixels of input and output differ in their number of components.

@@ -37,7 +37,7 @@ template <typename TVector>
 HWY_INLINE TVector
 Hold(TVector v)
 {
-#if HWY_COMPILER_GCC && HWY_ARCH_X86
+#if HWY_COMPILER_GCC_ACTUAL && HWY_ARCH_X86
   asm("" : "+v"(v.raw));
 #endif
   return v;

@@ -30,9 +30,9 @@ FilterFields(SubdivisionSweep<T> & s,
              T * const             lowerChildren,
              T * const             upperChildren)
 {
-  const auto filterLanes = [&](const T * const row, const T * const curvature, T * const result) SUBDIVISION_ATTRIBUTE {
-    FilterRow<T>(
-      AlongLanes<T>{ row }, AlongLanes<T>{ curvature }, BSplineMask, s.Width, ChildrenAlongLanes<T>{ result });
+  const std::ptrdiff_t width = s.Width;
+  const auto filterLanes = [=](const T * const row, const T * const curvature, T * const result) SUBDIVISION_ATTRIBUTE {
+    FilterRow<T>(AlongLanes<T>{ row }, AlongLanes<T>{ curvature }, BSplineMask, width, ChildrenAlongLanes<T>{ result });
   };
   if constexpr (!VRowAxis)
   {
@@ -46,7 +46,10 @@ FilterFields(SubdivisionSweep<T> & s,
     for (std::ptrdiff_t r = begin; r < end; ++r)
     {
       valueRows.Rotate();
-      filterLanes(field(r), LimitedRow(s, plane, LaneAxis, r), valueRows[0]);
+      if (HasLaneFields<VRowAxis>(s, r))
+      {
+        filterLanes(field(r), LimitedRow(s, plane, LaneAxis, r), valueRows[0]);
+      }
       if (HasRowFields(r))
       {
         const std::ptrdiff_t back = r - SubdivisionMasks::WindowRadius;
@@ -76,7 +79,7 @@ template <typename TLimit, typename TFilter>
 SUBDIVISION_INLINE void
 LimitAndFilter(const std::ptrdiff_t first, const std::ptrdiff_t end, const TLimit & limit, const TFilter & filter)
 {
-  constexpr std::ptrdiff_t rowsPerStep = 8;
+  constexpr std::ptrdiff_t rowsPerStep = 16;
   for (std::ptrdiff_t begin = first; begin < end; begin += rowsPerStep)
   {
     const std::ptrdiff_t stepEnd = std::min(begin + rowsPerStep, end);

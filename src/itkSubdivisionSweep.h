@@ -72,7 +72,7 @@ struct SubdivisionSweep
   static constexpr int SecondDifferencePlanes = 5 + PlanesPerStep - 1;
   static constexpr int NeighbourPlanes = 5 + PlanesPerStep - 1;
   /** A power of two that holds the rows that are limited before they are filtered, and those that lag behind. */
-  static constexpr std::ptrdiff_t LimitedRows = 16;
+  static constexpr std::ptrdiff_t LimitedRows = 32;
 
   NonOscillatorySubdivisionImageFilterEnums::Scheme Scheme;
 

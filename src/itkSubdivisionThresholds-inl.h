@@ -116,6 +116,14 @@ LimitedRow(const SubdivisionSweep<T> & s, const int plane, const int subset, con
   return s.Limited[plane][subset] + (row & (rows - 1)) * s.Pitch;
 }
 
+/** Whether the fields without the row axis are needed of a row. */
+template <bool VRowAxis, typename T>
+SUBDIVISION_INLINE bool
+HasLaneFields(const SubdivisionSweep<T> & s, const std::ptrdiff_t row)
+{
+  return !VRowAxis || (row >= -ValueReach && row < s.Height + ValueReach);
+}
+
 /** Whether the fields with the row axis are complete, and needed, of the row that lies a window's radius before. */
 SUBDIVISION_INLINE bool
 HasRowFields(const std::ptrdiff_t row)
@@ -136,12 +144,15 @@ LimitFlatFields(SubdivisionSweep<T> & s, const T * const plane, const std::ptrdi
     buffers.BothMinima[0].Rotate();
   }
   SumFlatDifferences<VRowAxis>(buffers, row, row + s.Pitch, s.Width);
-  LimitRow(RowCurvature<T>{ row },
-           AlongLanes<T>{ buffers.LaneSums[0] },
-           s.Tension,
-           ValueReach,
-           s.Width,
-           LimitedRow(s, 0, LaneAxis, r));
+  if (HasLaneFields<VRowAxis>(s, r))
+  {
+    LimitRow(RowCurvature<T>{ row },
+             AlongLanes<T>{ buffers.LaneSums[0] },
+             s.Tension,
+             ValueReach,
+             s.Width,
+             LimitedRow(s, 0, LaneAxis, r));
+  }
   if constexpr (VRowAxis)
   {
     WindowMinimumRow(AlongLanes<T>{ buffers.BothSums[0] }, ValueReach, s.Width, buffers.BothMinima[0][0]);
@@ -312,13 +323,16 @@ LimitSteepFields(SubdivisionSweep<T> & s, const std::ptrdiff_t r)
     }
   }
   SumSteepDifferences<VRowAxis>(s, r * s.Pitch);
-  LimitSteepRows(s,
-                 LaneAxis,
-                 r,
-                 RowCurvature<T>{ buffers.SweepCurvature[0][row] },
-                 RowCurvature<T>{ buffers.SweepCurvature[1][row] },
-                 AlongLanes<T>{ buffers.LaneSums[0] },
-                 AlongLanes<T>{ buffers.LaneSums[1] });
+  if (HasLaneFields<VRowAxis>(s, r))
+  {
+    LimitSteepRows(s,
+                   LaneAxis,
+                   r,
+                   RowCurvature<T>{ buffers.SweepCurvature[0][row] },
+                   RowCurvature<T>{ buffers.SweepCurvature[1][row] },
+                   AlongLanes<T>{ buffers.LaneSums[0] },
+                   AlongLanes<T>{ buffers.LaneSums[1] });
+  }
   if constexpr (VRowAxis)
   {
     for (int plane = 0; plane < 2; ++plane)

@@ -163,3 +163,36 @@ TEST(NonOscillatorySubdivisionNonFinite, Several)
     }
   }
 }
+
+/** Which region is asked for makes no difference where there are such voxels, either. */
+TEST(NonOscillatorySubdivisionNonFinite, AnyRegion)
+{
+  const auto image = MakeImage<FloatImage>(MakeRegion<FloatImage>({}, { 26, 17, 19 }));
+  FillWithTestData(image.GetPointer(), -1.0, 1.0, 2);
+  std::mt19937 engine(5);
+  for (int i = 0; i < 12; ++i)
+  {
+    FloatImage::IndexType voxel;
+    for (unsigned int axis = 0; axis < 3; ++axis)
+    {
+      voxel[axis] = static_cast<long>(engine() % image->GetBufferedRegion().GetSize(axis));
+    }
+    image->SetPixel(voxel, static_cast<float>(BadValues()[i % 3]));
+  }
+  const auto whole = Subdivided<FloatImage>(image, SchemeEnum::NonOscillatory, BoundaryKind::ZeroFlux);
+  const auto isSame = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  for (int trial = 0; trial < 20; ++trial)
+  {
+    const auto filter = FloatFilter::New();
+    filter->SetInput(image);
+    filter->UpdateOutputInformation();
+    filter->GetOutput()->SetRequestedRegion(RandomSubRegion(whole->GetLargestPossibleRegion(), engine));
+    filter->Update();
+    const FloatImage * const                           part = filter->GetOutput();
+    itk::ImageRegionConstIteratorWithIndex<FloatImage> it(part, part->GetRequestedRegion());
+    for (; !it.IsAtEnd(); ++it)
+    {
+      ASSERT_TRUE(isSame(it.Get(), whole->GetPixel(it.GetIndex()))) << it.GetIndex() << " of " << it.GetRegion();
+    }
+  }
+}

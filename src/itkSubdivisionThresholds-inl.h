@@ -138,6 +138,8 @@ LimitFlatFields(SubdivisionSweep<T> & s, const T * const plane, const std::ptrdi
 {
   auto &          buffers = s.Rows;
   const T * const row = plane + r * s.Pitch;
+  const auto      limit = [&](const auto field, const auto sums, T * const result)
+                       SUBDIVISION_ATTRIBUTE { LimitRow(field, sums, s.Tension, ValueReach, s.Width, result); };
   if constexpr (VRowAxis)
   {
     buffers.RowSums[0].Rotate();
@@ -146,33 +148,20 @@ LimitFlatFields(SubdivisionSweep<T> & s, const T * const plane, const std::ptrdi
   SumFlatDifferences<VRowAxis>(buffers, row, row + s.Pitch, s.Width);
   if (HasLaneFields<VRowAxis>(s, r))
   {
-    LimitRow(RowCurvature<T>{ row },
-             AlongLanes<T>{ buffers.LaneSums[0] },
-             s.Tension,
-             ValueReach,
-             s.Width,
-             LimitedRow(s, 0, LaneAxis, r));
+    limit(RowCurvature<T>{ row }, AlongLanes<T>{ buffers.LaneSums[0] }, LimitedRow(s, 0, LaneAxis, r));
   }
   if constexpr (VRowAxis)
   {
     WindowMinimumRow(AlongLanes<T>{ buffers.BothSums[0] }, ValueReach, s.Width, buffers.BothMinima[0][0]);
     if (HasRowFields(r))
     {
-      T * const curvature = buffers.RowCurvature[0];
-      SecondDifferenceRow(
-        RowsOfPlane(row - SubdivisionMasks::WindowRadius * s.Pitch, s.Pitch), ValueReach + 1, s.Width, curvature);
-      LimitRow(RowValues<T>{ curvature },
-               RowsAround<2>(buffers.RowSums[0], 0, 0),
-               s.Tension,
-               ValueReach,
-               s.Width,
-               LimitedRow(s, 0, RowAxis, r - SubdivisionMasks::WindowRadius));
-      LimitRow(RowCurvature<T>{ curvature },
-               RowsAround<2>(buffers.BothMinima[0], 0, 0),
-               s.Tension,
-               ValueReach,
-               s.Width,
-               LimitedRow(s, 0, BothAxesInPlane, r - SubdivisionMasks::WindowRadius));
+      const std::ptrdiff_t back = r - SubdivisionMasks::WindowRadius;
+      T * const            curvature = buffers.RowCurvature[0];
+      SecondDifferenceRow(RowsOfPlane(plane + back * s.Pitch, s.Pitch), ValueReach + 1, s.Width, curvature);
+      limit(RowValues<T>{ curvature }, RowsAround<2>(buffers.RowSums[0], 0, 0), LimitedRow(s, 0, RowAxis, back));
+      limit(RowCurvature<T>{ curvature },
+            RowsAround<2>(buffers.BothMinima[0], 0, 0),
+            LimitedRow(s, 0, BothAxesInPlane, back));
     }
   }
 }
@@ -256,27 +245,34 @@ SumSteepDifferences(const SubdivisionSweep<T> & s, const std::ptrdiff_t here)
   T * const       keptLane = s.KeptSlopeSums[LaneAxis] + here;
   T * const       keptRow = s.KeptSlopeSums[RowAxis] + here;
   T * const       keptBoth = s.KeptSlopeSums[BothAxesInPlane] + here;
+  // Of the parts in the two newest slopes, makes sums: with the part in the slope before, and with each other.
+  const auto addSlopes = [](auto & earlier, auto & later, T * const kept) SUBDIVISION_ATTRIBUTE {
+    const auto before = Load(kept);
+    Store(later, kept);
+    later = Add(earlier, later);
+    earlier = Add(before, earlier);
+  };
   for (std::ptrdiff_t x = FirstVector<T>(SumReach); x < s.Width + SumReach; x += LaneCount<T>())
   {
-    Vector<T> earlierLanes, earlierRows, earlierBoth;
-    Vector<T> laterLanes, laterRows, laterBoth;
+    Vector<T> earlierLanes;
+    Vector<T> earlierRows;
+    Vector<T> earlierBoth;
+    Vector<T> laterLanes;
+    Vector<T> laterRows;
+    Vector<T> laterBoth;
     SumDifferences<VRowAxis>(earlierRow, earlierNextRow, x, earlierLanes, earlierRows, earlierBoth);
     SumDifferences<VRowAxis>(laterRow, laterNextRow, x, laterLanes, laterRows, laterBoth);
-    Store(Comparable<T>(Add(Load(keptLane + x), earlierLanes)), buffers.LaneSums[0] + x);
-    Store(Comparable<T>(Add(earlierLanes, laterLanes)), buffers.LaneSums[1] + x);
-    Store(laterLanes, keptLane + x);
+    addSlopes(earlierLanes, laterLanes, keptLane + x);
+    Store(Comparable<T>(earlierLanes), buffers.LaneSums[0] + x);
+    Store(Comparable<T>(laterLanes), buffers.LaneSums[1] + x);
     if constexpr (VRowAxis)
     {
-      const auto rows0 = Add(Load(keptRow + x), earlierRows);
-      const auto rows1 = Add(earlierRows, laterRows);
-      Store(laterRows, keptRow + x);
-      const auto both0 = Add(Load(keptBoth + x), earlierBoth);
-      const auto both1 = Add(earlierBoth, laterBoth);
-      Store(laterBoth, keptBoth + x);
-      Store(Comparable<T>(AddKept(rows0, buffers.KeptRowSums[0] + x)), buffers.RowSums[0][0] + x);
-      Store(Comparable<T>(AddKept(rows1, buffers.KeptRowSums[1] + x)), buffers.RowSums[1][0] + x);
-      Store(Comparable<T>(AddKept(both0, buffers.KeptBothSums[0] + x)), buffers.BothSums[0] + x);
-      Store(Comparable<T>(AddKept(both1, buffers.KeptBothSums[1] + x)), buffers.BothSums[1] + x);
+      addSlopes(earlierRows, laterRows, keptRow + x);
+      Store(Comparable<T>(AddKept(earlierRows, buffers.KeptRowSums[0] + x)), buffers.RowSums[0][0] + x);
+      Store(Comparable<T>(AddKept(laterRows, buffers.KeptRowSums[1] + x)), buffers.RowSums[1][0] + x);
+      addSlopes(earlierBoth, laterBoth, keptBoth + x);
+      Store(Comparable<T>(AddKept(earlierBoth, buffers.KeptBothSums[0] + x)), buffers.BothSums[0] + x);
+      Store(Comparable<T>(AddKept(laterBoth, buffers.KeptBothSums[1] + x)), buffers.BothSums[1] + x);
     }
   }
 }

@@ -505,16 +505,11 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(Kerne
   const IndexValueType firstPlane = parents.GetIndex(axes.GetSweep());
   const IndexValueType firstLane = SubdivisionMasks::Children * parents.GetIndex(axes.GetLanes());
 
-  // Rows are short: their memory is asked for before they are read or written.
   kernel.StartTile(width, static_cast<std::size_t>(height), static_cast<std::size_t>(depth));
   const auto advance = [&](const IndexValueType plane) {
     for (IndexValueType row = -rowHalo; row < height + rowHalo; ++row)
     {
       reader.ReadRow(firstRow + row, firstPlane + plane, kernel.GetInputRow(row) - halo);
-      if (plane + 1 < depth + planeHalo)
-      {
-        reader.PrefetchRow(firstRow + row, firstPlane + plane + 1);
-      }
     }
     return kernel.AdvancePlane();
   };

@@ -44,23 +44,6 @@ using SubdivisionVectorPixelType = typename std::conditional<
       typename std::conditional<std::is_signed<TComponent>::value, std::int16_t, std::uint16_t>::type>::type>::type>::
   type;
 
-/** Asks for memory that will be read soon: rows of a tile are too short for the processor to see them coming. */
-template <typename T>
-inline void
-SubdivisionPrefetch(const T * const begin, const T * const end)
-{
-#if defined(__GNUC__) || defined(__clang__)
-  constexpr std::ptrdiff_t line = 64 / sizeof(T);
-  for (const T * p = begin; p < end; p += line)
-  {
-    __builtin_prefetch(p);
-  }
-#else
-  (void)begin;
-  (void)end;
-#endif
-}
-
 /** A real value as a component of a pixel: integers round to nearest, ties to even, and saturate, and NaN becomes 0;
  * real values are passed on. */
 template <typename TComponent, typename TReal>

@@ -98,19 +98,6 @@ public:
     this->ReadOutside(pixels, { m_Inside.End, m_Lanes.End }, row, plane, values);
   }
 
-  /** Asks for the memory of a row that will be read soon. */
-  void
-  PrefetchRow(const IndexValueType row, const IndexValueType plane) const
-  {
-    const OffsetValueType rowOffset = m_Axes.HasRows() ? m_RowOffsets[row] : 0;
-    const OffsetValueType planeOffset = m_Axes.HasSweep() ? m_PlaneOffsets[plane] : 0;
-    if (rowOffset < SubdivisionOffsets::AskBoundary && planeOffset < SubdivisionOffsets::AskBoundary)
-    {
-      const ComponentType * const pixels = m_Pixels + rowOffset + planeOffset;
-      SubdivisionPrefetch(pixels + m_Inside.Begin * m_Stride, pixels + m_Inside.End * m_Stride);
-    }
-  }
-
 private:
   /** Maps an index outside [0, size) into it. */
   using IndexMapType = IndexValueType (*)(IndexValueType index, IndexValueType size);

@@ -76,19 +76,23 @@ public:
     if (isWholeRow && !m_IsLarge)
     {
       this->Interleave(children, parents, pixels);
-      return parents * SubdivisionMasks::Children;
     }
-    this->ReserveRow(count);
-    this->Interleave(children, parents, m_Row.get());
-    if (isWholeRow)
+    else
     {
-      CopyPastCache(m_Row.get(), count * sizeof(ComponentType), pixels);
-      return parents * SubdivisionMasks::Children;
-    }
-    // A row that begins or ends with half a voxel, or whose pixels do not lie side by side.
-    for (IndexValueType i = m_Begin; i < m_End; ++i)
-    {
-      pixels[(i - m_Begin) * m_Stride] = m_Row[i - lane];
+      this->ReserveRow(count);
+      this->Interleave(children, parents, m_Row.get());
+      if (isWholeRow)
+      {
+        CopyPastCache(m_Row.get(), count * sizeof(ComponentType), pixels);
+      }
+      else
+      {
+        // A row that begins or ends with half a voxel, or whose pixels do not lie side by side.
+        for (IndexValueType i = m_Begin; i < m_End; ++i)
+        {
+          pixels[(i - m_Begin) * m_Stride] = m_Row[i - lane];
+        }
+      }
     }
     return static_cast<SizeValueType>(m_End - m_Begin);
   }
@@ -181,7 +185,7 @@ private:
 
   ComponentType * m_Pixels{ nullptr };
 
-  /** A row before it is rounded, and before it is cropped or spread. */
+  /** A row before it is rounded, and before it is copied to where it belongs. */
   std::vector<TReal>               m_Values;
   std::unique_ptr<ComponentType[]> m_Row;
   IndexValueType                   m_RowLength{ 0 };

@@ -216,7 +216,7 @@ struct SubdivisionKernel<TReal>::Implementation
       {
         ring(Sweep.SteepWindows[subset].Pair, plane);
         ring(Sweep.SteepWindows[subset].Later, plane);
-        Sweep.KeptSlopeSums[subset] = plane();
+        Sweep.KeptSlopeSums[subset] = subset == NoAxisInPlane ? nullptr : plane();
         for (auto & limited : Sweep.Limited)
         {
           limited[subset] = Memory.Take(rowLength * SubdivisionSweep<TReal>::LimitedRows) + halo;
@@ -334,6 +334,12 @@ SubdivisionKernel<TReal>::ComputeChildren(std::size_t row, unsigned int rowChild
 template class SubdivisionKernel<float>;
 template class SubdivisionKernel<double>;
 
+void
+InterleaveChildren(const double * children, std::size_t count, double * out)
+{
+  Target().InterleaveDoubles(children, count, out);
+}
+
 #define itkDefineSubdivisionConversions(TPixel, Name)                                                              \
   void ConvertRow(const TPixel * in, std::size_t count, float * out) { Target().Name.ConvertRow(in, count, out); } \
   void InterleaveChildren(const float * children, std::size_t count, TPixel * out)                                 \
@@ -343,10 +349,5 @@ template class SubdivisionKernel<double>;
 itkDefineSubdivisionConversions(std::uint8_t, UInt8) itkDefineSubdivisionConversions(std::int8_t, Int8)
   itkDefineSubdivisionConversions(std::uint16_t, UInt16) itkDefineSubdivisionConversions(std::int16_t, Int16)
     itkDefineSubdivisionConversions(float, Real)
-
-      void InterleaveChildren(const double * children, std::size_t count, double * out)
-{
-  Target().InterleaveDoubles(children, count, out);
-}
 
 } // namespace itk

@@ -75,11 +75,11 @@ FilterFields(SubdivisionSweep<T> & s,
 
 /** Calls \c limit for some rows and then \c filter for the same ones, until all are done: either step finds in the
  * cache what it keeps from row to row. */
-template <typename TLimit, typename TFilter>
+template <typename T, typename TLimit, typename TFilter>
 SUBDIVISION_INLINE void
 LimitAndFilter(const std::ptrdiff_t first, const std::ptrdiff_t end, const TLimit & limit, const TFilter & filter)
 {
-  constexpr std::ptrdiff_t rowsPerStep = 16;
+  constexpr std::ptrdiff_t rowsPerStep = SubdivisionSweep<T>::RowsPerStep;
   for (std::ptrdiff_t begin = first; begin < end; begin += rowsPerStep)
   {
     const std::ptrdiff_t stepEnd = std::min(begin + rowsPerStep, end);
@@ -104,7 +104,7 @@ AdvanceFlatFields(SubdivisionSweep<T> & s)
     FilterFields<VRowAxis>(s, 0, begin, end, values, s.FlatChildren[0][0], s.FlatChildren[1][0]);
   };
   // The first row is there for the differences between it and the next one only.
-  LimitAndFilter(VRowAxis ? -SumReach - 1 : 0, VRowAxis ? s.Height + SumReach : 1, limit, filter);
+  LimitAndFilter<T>(VRowAxis ? -SumReach - 1 : 0, VRowAxis ? s.Height + SumReach : 1, limit, filter);
 }
 
 /** The steep fields of two planes: their children within the plane. */
@@ -133,7 +133,7 @@ AdvanceSteepFields(SubdivisionSweep<T> & s, const bool areWindowsComplete)
   {
     AdvanceSlopes(s, -SumReach - 1);
   }
-  LimitAndFilter(VRowAxis ? -SumReach - 1 : 0, VRowAxis ? s.Height + SumReach : 1, limit, filter);
+  LimitAndFilter<T>(VRowAxis ? -SumReach - 1 : 0, VRowAxis ? s.Height + SumReach : 1, limit, filter);
   for (auto & window : s.SteepWindows)
   {
     window.Pair.Rotate();

@@ -71,8 +71,10 @@ struct SubdivisionSweep
   static constexpr int ValuePlanes = 7 + PlanesPerStep - 1;
   static constexpr int SecondDifferencePlanes = 5 + PlanesPerStep - 1;
   static constexpr int NeighbourPlanes = 5 + PlanesPerStep - 1;
-  /** A power of two that holds the rows that are limited before they are filtered, and those that lag behind. */
-  static constexpr std::ptrdiff_t LimitedRows = 32;
+  /** Rows that are limited before they are filtered. */
+  static constexpr std::ptrdiff_t RowsPerStep = 16;
+  /** A power of two that holds the rows of a step and those before them that it still needs. */
+  static constexpr std::ptrdiff_t LimitedRows = 2 * RowsPerStep;
 
   NonOscillatorySubdivisionImageFilterEnums::Scheme Scheme;
 
@@ -107,7 +109,7 @@ struct SubdivisionSweep
    * field of no axis is the input itself. */
   T * Limited[2][SubsetsInPlane];
 
-  /** The part of the steep fields' block sums in the latest slope, by [subset in plane]. */
+  /** The part of the steep fields' block sums in the latest slope, by [subset in plane] but for that of no axis. */
   T * KeptSlopeSums[SubsetsInPlane];
   /** Windows of the steep fields' block sums along the sweep, by [subset in plane]. */
   SubdivisionPlaneWindow<T> SteepWindows[SubsetsInPlane];

@@ -17,7 +17,7 @@ from pathlib import Path
 # An instruction belongs to the stage of the innermost function, inlined or not, that is named here.
 STAGES = {
     "gather": r"SubdivisionTileReader|::ConvertRow",
-    "scatter": r"SubdivisionTileWriter|InterleaveChildren|CopyPastCache",
+    "scatter": r"SubdivisionTileWriter|InterleaveChildren|StreamPastCache|::CopyLines",
     "pass along lanes": r"::FilterRow<.*ChildrenAlongLanes",
     "pass across rows": r"::FilterFields|::AdvanceValues",
     "bounds": r"::AdvanceNeighbours|::BoundChildren",

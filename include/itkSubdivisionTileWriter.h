@@ -2,13 +2,14 @@
 #ifndef itkSubdivisionTileWriter_h
 #define itkSubdivisionTileWriter_h
 
-#include "itkCopyPastCache.h"
+#include "itkStreamPastCache.h"
 #include "itkSubdivisionKernel.h"
 #include "itkSubdivisionMasks.h"
 #include "itkSubdivisionPixelTraits.h"
 #include "itkSubdivisionTileAxes.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -45,7 +46,7 @@ public:
     , m_IsLarge(image->GetBufferedRegion().GetNumberOfPixels() * m_Components * sizeof(ComponentType) > CacheSize)
   {}
 
-  ~SubdivisionTileWriter() { FinishCopiesPastCache(); }
+  ~SubdivisionTileWriter() = default;
   SubdivisionTileWriter(const SubdivisionTileWriter &) = delete;
   SubdivisionTileWriter &
   operator=(const SubdivisionTileWriter &) = delete;
@@ -83,7 +84,8 @@ public:
       this->Interleave(children, parents, m_Row.get());
       if (isWholeRow)
       {
-        CopyPastCache(m_Row.get(), count * sizeof(ComponentType), pixels);
+        StreamPastCache & stream = m_Streams[static_cast<std::size_t>(plane) % m_Streams.size()];
+        stream.Copy(m_Row.get(), count * sizeof(ComponentType), pixels);
       }
       else
       {
@@ -184,6 +186,9 @@ private:
   bool m_IsLarge;
 
   ComponentType * m_Pixels{ nullptr };
+
+  /** Rows of a plane follow one another; those of as many planes come in turns. */
+  std::array<StreamPastCache, SubdivisionMasks::Children * SubdivisionKernel<TReal>::PlanesPerStep> m_Streams;
 
   /** A row before it is rounded, and before it is copied to where it belongs. */
   std::vector<TReal>               m_Values;

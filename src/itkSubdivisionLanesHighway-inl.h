@@ -50,6 +50,64 @@ Store(TVector v, T * p)
   hn::StoreU(v, Tag<T>(), p);
 }
 
+/** The neighbours of a row's values, up to VReach voxels away. */
+#if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
+template <typename T, int VReach>
+class Neighbours
+{
+public:
+  HWY_INLINE explicit Neighbours(const T * p)
+    : m_Values(p)
+  {}
+
+  template <int VOffset>
+  HWY_INLINE Vector<T>
+             At() const
+  {
+    return Load(m_Values + VOffset);
+  }
+
+private:
+  const T * m_Values;
+};
+#else
+// Loads of every neighbour would cross cache lines, and loads are what the loops over rows wait for. Vectors that lie a
+// block of 16 bytes apart hold, block by block, all that lies between them.
+template <typename T, int VReach>
+class Neighbours
+{
+public:
+  HWY_INLINE explicit Neighbours(const T * p)
+  {
+    for (int i = 0; i < Loads; ++i)
+    {
+      m_Loaded[i] = Hold(Load(p - VReach + i * Block));
+    }
+  }
+
+  template <int VOffset>
+  HWY_INLINE Vector<T>
+             At() const
+  {
+    constexpr int lane = VOffset + VReach;
+    if constexpr (lane % Block == 0)
+    {
+      return m_Loaded[lane / Block];
+    }
+    else
+    {
+      return hn::CombineShiftRightLanes<lane % Block>(Tag<T>(), m_Loaded[lane / Block + 1], m_Loaded[lane / Block]);
+    }
+  }
+
+private:
+  static constexpr int Block = 16 / sizeof(T);
+  static constexpr int Loads = (2 * VReach + Block - 1) / Block + 1;
+
+  Vector<T> m_Loaded[Loads];
+};
+#endif
+
 template <typename T>
 HWY_INLINE Vector<T>
            Broadcast(double value)
@@ -88,6 +146,34 @@ OrderedMax(TVector a, TVector b)
 #else
   return hn::IfThenElse(hn::Gt(a, b), a, b);
 #endif
+}
+
+/** Makes ready for MinOfSums. */
+template <typename TVector>
+HWY_INLINE TVector
+Comparable(TVector sum)
+{
+  using T = hn::TFromD<hn::DFromV<TVector>>;
+  return sizeof(T) == sizeof(std::uint32_t) ? sum : OrderedMin(sum, Broadcast<T>(std::numeric_limits<T>::infinity()));
+}
+
+/** The smaller one of two sums of sizes; NaN counts as infinite. */
+template <typename TVector>
+HWY_INLINE TVector
+MinOfSums(TVector a, TVector b)
+{
+  using D = hn::DFromV<TVector>;
+  if constexpr (sizeof(hn::TFromD<D>) == sizeof(std::uint32_t))
+  {
+    // The bits of what is not negative have its order, NaN last. Processors have more units for integers, and all of
+    // them have this minimum, which they do not for 64 bits.
+    constexpr hn::RebindToUnsigned<D> bits;
+    return hn::BitCast(D(), hn::Min(hn::BitCast(bits, a), hn::BitCast(bits, b)));
+  }
+  else
+  {
+    return OrderedMin(a, b);
+  }
 }
 
 /** The replacement where \c v is finite, else \c v. */

@@ -48,6 +48,26 @@ Store(T v, T * p)
   *p = v;
 }
 
+/** The neighbours of a row's values, up to VReach voxels away. */
+template <typename T, int VReach>
+class Neighbours
+{
+public:
+  explicit Neighbours(const T * p)
+    : m_Values(p)
+  {}
+
+  template <int VOffset>
+  T
+  At() const
+  {
+    return m_Values[VOffset];
+  }
+
+private:
+  const T * m_Values;
+};
+
 template <typename T>
 inline T
 Broadcast(double value)
@@ -125,6 +145,22 @@ inline T
 OrderedMax(T a, T b)
 {
   return a > b ? a : b;
+}
+
+/** Makes ready for MinOfSums. */
+template <typename T>
+inline T
+Comparable(T sum)
+{
+  return OrderedMin(sum, std::numeric_limits<T>::infinity());
+}
+
+/** The smaller one of two sums of sizes; NaN counts as infinite. */
+template <typename T>
+inline T
+MinOfSums(T a, T b)
+{
+  return OrderedMin(a, b);
 }
 
 /** The replacement where \c v is finite, else \c v. */

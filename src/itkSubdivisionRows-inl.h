@@ -170,7 +170,17 @@ template <typename TSums>
 SUBDIVISION_INLINE auto
 WindowMinimum(const TSums sums, const std::ptrdiff_t x)
 {
-  return OrderedMin(OrderedMin(OrderedMin(sums(x, -2), sums(x, -1)), OrderedMin(sums(x, 1), sums(x, 2))), sums(x, 0));
+  return MinOfSums(MinOfSums(MinOfSums(sums(x, -2), sums(x, -1)), MinOfSums(sums(x, 1), sums(x, 2))), sums(x, 0));
+}
+
+template <typename T>
+SUBDIVISION_INLINE auto
+WindowMinimum(const AlongLanes<T> sums, const std::ptrdiff_t x)
+{
+  const Neighbours<T, 2> sum(sums.Row + x);
+  const auto             before = MinOfSums(sum.template At<-2>(), sum.template At<-1>());
+  const auto             after = MinOfSums(sum.template At<1>(), sum.template At<2>());
+  return MinOfSums(MinOfSums(before, after), sum.template At<0>());
 }
 
 /** The second difference. */
@@ -179,6 +189,14 @@ SUBDIVISION_INLINE auto
 SecondDifference(const TValues values, const std::ptrdiff_t x)
 {
   return NegMulAdd(Broadcast<T>(2), values(x, 0), Add(values(x, -1), values(x, 1)));
+}
+
+template <typename T>
+SUBDIVISION_INLINE auto
+SecondDifference(const AlongLanes<T> values, const std::ptrdiff_t x)
+{
+  const Neighbours<T, 1> value(values.Row + x);
+  return NegMulAdd(Broadcast<T>(2), value.template At<0>(), Add(value.template At<-1>(), value.template At<1>()));
 }
 
 /** Window minima of a row or of several. */

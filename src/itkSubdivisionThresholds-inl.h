@@ -7,7 +7,6 @@
 #include "itkSubdivisionSweep.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace itk
 {
@@ -75,15 +74,6 @@ AddKept(const TVector part, T * const kept)
   return sum;
 }
 
-/** Sums for windows to be taken of. One with a value that is not finite does not limit anything, and minima without NaN
- * do not depend on their order. */
-template <typename T, typename TVector>
-SUBDIVISION_INLINE TVector
-Comparable(const TVector sum)
-{
-  return OrderedMin(sum, Broadcast<T>(std::numeric_limits<T>::max()));
-}
-
 /** Block sums of the flat fields of a row. */
 template <bool VRowAxis, typename T>
 SUBDIVISION_INLINE void
@@ -92,17 +82,23 @@ SumFlatDifferences(const typename SubdivisionSweep<T>::RowBuffers & buffers,
                    const T * const                                  nextRow,
                    const std::ptrdiff_t                             width)
 {
+  // Copies, since stores of vectors might change what is in memory.
+  T * const laneSums = buffers.LaneSums[0];
+  T * const rowSums = buffers.RowSums[0][0];
+  T * const bothSums = buffers.BothSums[0];
+  T * const keptRowSums = buffers.KeptRowSums[0];
+  T * const keptBothSums = buffers.KeptBothSums[0];
   for (std::ptrdiff_t x = FirstVector<T>(SumReach); x < width + SumReach; x += LaneCount<T>())
   {
     Vector<T> lanes;
     Vector<T> rows;
     Vector<T> both;
     SumDifferences<VRowAxis>(row, nextRow, x, lanes, rows, both);
-    Store(Comparable<T>(lanes), buffers.LaneSums[0] + x);
+    Store(Comparable(lanes), laneSums + x);
     if constexpr (VRowAxis)
     {
-      Store(Comparable<T>(AddKept(rows, buffers.KeptRowSums[0] + x)), buffers.RowSums[0][0] + x);
-      Store(Comparable<T>(AddKept(both, buffers.KeptBothSums[0] + x)), buffers.BothSums[0] + x);
+      Store(Comparable(AddKept(rows, keptRowSums + x)), rowSums + x);
+      Store(Comparable(AddKept(both, keptBothSums + x)), bothSums + x);
     }
   }
 }
@@ -175,9 +171,9 @@ AdvanceWindow(const SubdivisionPlaneWindow<T> & window, const std::ptrdiff_t off
   T * const  oldestLater = window.Later[1] + offset;
   const auto middlePair = Load(window.Pair[0] + offset);
   const auto newestLater = later;
-  const auto newestPair = OrderedMin(earlier, later);
-  earlier = OrderedMin(OrderedMin(middlePair, Load(oldestPair)), earlier);
-  later = OrderedMin(OrderedMin(middlePair, Load(oldestLater)), newestPair);
+  const auto newestPair = MinOfSums(earlier, later);
+  earlier = MinOfSums(MinOfSums(middlePair, Load(oldestPair)), earlier);
+  later = MinOfSums(MinOfSums(middlePair, Load(oldestLater)), newestPair);
   Store(newestPair, oldestPair);
   Store(newestLater, oldestLater);
 }
@@ -219,8 +215,8 @@ AdvanceSlopes(SubdivisionSweep<T> & s, const std::ptrdiff_t r)
     Store(slope1, earlierSlope + x);
     Store(slope0, laterSlope + x);
 
-    auto earlier = Comparable<T>(Add(Abs(slope1), Abs(Sub(value2, value3))));
-    auto later = Comparable<T>(Add(Abs(slope0), Abs(slope1)));
+    auto earlier = Comparable(Add(Abs(slope1), Abs(Sub(value2, value3))));
+    auto later = Comparable(Add(Abs(slope0), Abs(slope1)));
     AdvanceWindow(s.SteepWindows[NoAxisInPlane], here + x, earlier, later);
 
     const auto curvature4 = NegMulAdd(two, value4, Add(Load(input5 + x), value3));
@@ -252,7 +248,14 @@ SumSteepDifferences(const SubdivisionSweep<T> & s, const std::ptrdiff_t here)
     later = Add(earlier, later);
     earlier = Add(before, earlier);
   };
-  for (std::ptrdiff_t x = FirstVector<T>(SumReach); x < s.Width + SumReach; x += LaneCount<T>())
+  // Copies, since stores of vectors might change what is in memory.
+  T * const            laneSums[2] = { buffers.LaneSums[0], buffers.LaneSums[1] };
+  T * const            rowSums[2] = { buffers.RowSums[0][0], buffers.RowSums[1][0] };
+  T * const            bothSums[2] = { buffers.BothSums[0], buffers.BothSums[1] };
+  T * const            keptRowSums[2] = { buffers.KeptRowSums[0], buffers.KeptRowSums[1] };
+  T * const            keptBothSums[2] = { buffers.KeptBothSums[0], buffers.KeptBothSums[1] };
+  const std::ptrdiff_t end = s.Width + SumReach;
+  for (std::ptrdiff_t x = FirstVector<T>(SumReach); x < end; x += LaneCount<T>())
   {
     Vector<T> earlierLanes;
     Vector<T> earlierRows;
@@ -263,16 +266,16 @@ SumSteepDifferences(const SubdivisionSweep<T> & s, const std::ptrdiff_t here)
     SumDifferences<VRowAxis>(earlierRow, earlierNextRow, x, earlierLanes, earlierRows, earlierBoth);
     SumDifferences<VRowAxis>(laterRow, laterNextRow, x, laterLanes, laterRows, laterBoth);
     addSlopes(earlierLanes, laterLanes, keptLane + x);
-    Store(Comparable<T>(earlierLanes), buffers.LaneSums[0] + x);
-    Store(Comparable<T>(laterLanes), buffers.LaneSums[1] + x);
+    Store(Comparable(earlierLanes), laneSums[0] + x);
+    Store(Comparable(laterLanes), laneSums[1] + x);
     if constexpr (VRowAxis)
     {
       addSlopes(earlierRows, laterRows, keptRow + x);
-      Store(Comparable<T>(AddKept(earlierRows, buffers.KeptRowSums[0] + x)), buffers.RowSums[0][0] + x);
-      Store(Comparable<T>(AddKept(laterRows, buffers.KeptRowSums[1] + x)), buffers.RowSums[1][0] + x);
+      Store(Comparable(AddKept(earlierRows, keptRowSums[0] + x)), rowSums[0] + x);
+      Store(Comparable(AddKept(laterRows, keptRowSums[1] + x)), rowSums[1] + x);
       addSlopes(earlierBoth, laterBoth, keptBoth + x);
-      Store(Comparable<T>(AddKept(earlierBoth, buffers.KeptBothSums[0] + x)), buffers.BothSums[0] + x);
-      Store(Comparable<T>(AddKept(laterBoth, buffers.KeptBothSums[1] + x)), buffers.BothSums[1] + x);
+      Store(Comparable(AddKept(earlierBoth, keptBothSums[0] + x)), bothSums[0] + x);
+      Store(Comparable(AddKept(laterBoth, keptBothSums[1] + x)), bothSums[1] + x);
     }
   }
 }

@@ -3,7 +3,7 @@
 
 #include "SubdivisionTestHelpers.h"
 
-#include "itkCopyPastCache.h"
+#include "itkStreamPastCache.h"
 
 #include <algorithm>
 #include <numeric>
@@ -31,6 +31,14 @@ ConvertedFrom(double value, SchemeEnum scheme)
     EXPECT_EQ(+first[i], +first[0]) << "child " << i << " of " << value;
   }
   return first[0];
+}
+
+std::vector<unsigned char>
+CountedBytes(const std::size_t count)
+{
+  std::vector<unsigned char> bytes(count);
+  std::iota(bytes.begin(), bytes.end(), static_cast<unsigned char>(1));
+  return bytes;
 }
 
 template <typename TReal, typename TInteger>
@@ -161,8 +169,7 @@ TEST(NonOscillatorySubdivisionConversion, RowsInVectorCode)
 /** Copies of every length to every place within a cache line, with nothing written around them. */
 TEST(NonOscillatorySubdivisionConversion, CopiesPastTheCache)
 {
-  std::vector<unsigned char> from(300);
-  std::iota(from.begin(), from.end(), static_cast<unsigned char>(1));
+  const std::vector<unsigned char> from = CountedBytes(300);
   for (std::size_t begin = 0; begin <= 64; ++begin)
   {
     for (std::size_t bytes = 0; bytes <= 200; bytes += 1 + bytes / 8)
@@ -170,9 +177,37 @@ TEST(NonOscillatorySubdivisionConversion, CopiesPastTheCache)
       std::vector<unsigned char> to(400, 0);
       std::vector<unsigned char> expected(400, 0);
       std::copy_n(from.data() + 3, bytes, expected.data() + begin);
-      itk::CopyPastCache(from.data() + 3, bytes, to.data() + begin);
-      itk::FinishCopiesPastCache();
+      {
+        itk::StreamPastCache stream;
+        stream.Copy(from.data() + 3, bytes, to.data() + begin);
+      }
       ASSERT_EQ(to, expected) << bytes << " bytes at " << begin;
+    }
+  }
+}
+
+/** Copies that continue one another, of every length, and then one elsewhere. */
+TEST(NonOscillatorySubdivisionConversion, ContinuesCopiesPastTheCache)
+{
+  const std::vector<unsigned char> from = CountedBytes(2000);
+  for (std::size_t begin = 0; begin < 64; begin += 7)
+  {
+    for (std::size_t bytes = 1; bytes <= 140; ++bytes)
+    {
+      std::vector<unsigned char> to(2000, 0);
+      std::vector<unsigned char> expected(2000, 0);
+      const std::size_t          copies = 1000 / bytes;
+      std::copy_n(from.data(), copies * bytes, expected.data() + begin);
+      std::copy_n(from.data() + 11, bytes, expected.data() + 1500);
+      {
+        itk::StreamPastCache stream;
+        for (std::size_t copy = 0; copy < copies; ++copy)
+        {
+          stream.Copy(from.data() + copy * bytes, bytes, to.data() + begin + copy * bytes);
+        }
+        stream.Copy(from.data() + 11, bytes, to.data() + 1500);
+      }
+      ASSERT_EQ(to, expected) << copies << " copies of " << bytes << " bytes at " << begin;
     }
   }
 }

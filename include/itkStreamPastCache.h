@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef itkStreamPastCache_h
+#define itkStreamPastCache_h
+
+#include "NonOscillatorySubdivisionExport.h"
+
+#include <cstddef>
+
+namespace itk
+{
+
+/** \class StreamPastCache
+ *
+ * \brief Copies bytes to memory that nobody reads soon.
+ *
+ * Where the processor can do so, whole cache lines go there without being read first and without taking the place of
+ * what is in the cache. The bytes of a line that is not complete yet wait for the next copy, which usually begins where
+ * this one ended. Elsewhere these are plain copies.
+ *
+ * All is written, and other threads may read it, once the stream is destroyed.
+ *
+ * \ingroup NonOscillatorySubdivision
+ */
+class NonOscillatorySubdivision_EXPORT StreamPastCache
+{
+public:
+  StreamPastCache() = default;
+  ~StreamPastCache();
+  StreamPastCache(const StreamPastCache &) = delete;
+  StreamPastCache &
+  operator=(const StreamPastCache &) = delete;
+
+  void
+  Copy(const void * from, std::size_t bytes, void * to);
+
+private:
+  static constexpr std::size_t LineLength = 64;
+
+  void
+  CopyWaiting();
+
+  /** Where the next copy begins if it continues the last one. */
+  unsigned char * m_End{ nullptr };
+  /** The beginning of the line before m_End; it waits for its end. */
+  unsigned char m_Line[LineLength];
+  std::size_t   m_Waiting{ 0 };
+};
+
+} // namespace itk
+
+#endif

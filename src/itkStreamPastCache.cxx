@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "itkStreamPastCache.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__SSE2__) || defined(_M_X64)
+#  include <emmintrin.h>
+#  define SUBDIVISION_HAS_SSE2
+#endif
+
+namespace itk
+{
+namespace
+{
+
+/** Copies bytes to whole lines. */
+void
+CopyLines(const unsigned char * const from, const std::size_t bytes, unsigned char * const to)
+{
+#ifdef SUBDIVISION_HAS_SSE2
+  for (std::size_t i = 0; i < bytes; i += sizeof(__m128i))
+  {
+    const __m128i value = _mm_loadu_si128(reinterpret_cast<const __m128i *>(from + i));
+    _mm_stream_si128(reinterpret_cast<__m128i *>(to + i), value);
+  }
+#else
+  std::memcpy(to, from, bytes);
+#endif
+}
+
+} // namespace
+
+StreamPastCache::~StreamPastCache()
+{
+  this->CopyWaiting();
+#ifdef SUBDIVISION_HAS_SSE2
+  _mm_sfence();
+#endif
+}
+
+void
+StreamPastCache::Copy(const void * const from, const std::size_t bytes, void * const to)
+{
+  const auto * in = static_cast<const unsigned char *>(from);
+  auto *       out = static_cast<unsigned char *>(to);
+  if (out != m_End)
+  {
+    this->CopyWaiting();
+  }
+  m_End = out + bytes;
+
+  const std::size_t begun = reinterpret_cast<std::uintptr_t>(out) % LineLength;
+  const std::size_t head = std::min(bytes, (LineLength - begun) % LineLength);
+  if (m_Waiting == 0)
+  {
+    // What the line begins with is somebody else's.
+    std::memcpy(out, in, head);
+  }
+  else
+  {
+    std::memcpy(m_Line + begun, in, head);
+    m_Waiting += head;
+    if (m_Waiting == LineLength)
+    {
+      CopyLines(m_Line, LineLength, out - begun);
+      m_Waiting = 0;
+    }
+  }
+  const std::size_t lines = (bytes - head) / LineLength * LineLength;
+  CopyLines(in + head, lines, out + head);
+
+  const std::size_t tail = bytes - head - lines;
+  std::memcpy(m_Line + m_Waiting, in + head + lines, tail);
+  m_Waiting += tail;
+}
+
+void
+StreamPastCache::CopyWaiting()
+{
+  if (m_Waiting > 0)
+  {
+    std::memcpy(m_End - m_Waiting, m_Line, m_Waiting);
+    m_Waiting = 0;
+  }
+}
+
+} // namespace itk

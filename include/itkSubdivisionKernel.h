@@ -73,7 +73,7 @@ public:
   using SchemeEnum = NonOscillatorySubdivisionImageFilterEnums::Scheme;
 
   /** Planes whose children are best computed together, since they share most of what they read. */
-  static constexpr unsigned int PlanesPerStep = 4;
+  static constexpr unsigned int PlanesPerStep = 8;
 
   /** Rows of children, by [planes completed since theirs][child along the sweep], each with both children along the
    * lanes of every voxel, in the order that InterleaveChildren takes. Without a sweep there is only child 0. */

@@ -274,7 +274,7 @@ SubdivisionKernel<TReal>::GetRecommendedTileSize(unsigned int numberOfAxes, std:
   // Found by measurement: rows that are long enough for memory to stream, and enough of them to make up for the halo.
   // Smaller tiles would fit a cache nearer to the core, but gain less there than they lose to the halo.
   width = numberOfAxes > 2 ? 256 : 1024;
-  height = numberOfAxes > 2 ? 64 : 1;
+  height = numberOfAxes > 2 ? 48 : 1;
 }
 
 template <typename TReal>

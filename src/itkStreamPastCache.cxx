@@ -15,15 +15,20 @@ namespace itk
 namespace
 {
 
-/** Copies bytes to whole lines. */
+/** Copies as many bytes as there are in some whole lines. */
 void
 CopyLines(const unsigned char * const from, const std::size_t bytes, unsigned char * const to)
 {
 #ifdef SUBDIVISION_HAS_SSE2
-  for (std::size_t i = 0; i < bytes; i += sizeof(__m128i))
+  constexpr std::size_t line = 4 * sizeof(__m128i);
+  for (std::size_t i = 0; i < bytes; i += line)
   {
-    const __m128i value = _mm_loadu_si128(reinterpret_cast<const __m128i *>(from + i));
-    _mm_stream_si128(reinterpret_cast<__m128i *>(to + i), value);
+    const auto * const in = reinterpret_cast<const __m128i *>(from + i);
+    auto * const       out = reinterpret_cast<__m128i *>(to + i);
+    for (int part = 0; part < 4; ++part)
+    {
+      _mm_stream_si128(out + part, _mm_loadu_si128(in + part));
+    }
   }
 #else
   std::memcpy(to, from, bytes);

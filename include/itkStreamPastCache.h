@@ -30,6 +30,7 @@ public:
   StreamPastCache &
   operator=(const StreamPastCache &) = delete;
 
+  /** Copies \c bytes bytes; the memory at \c from may be used for other things afterwards. */
   void
   Copy(const void * from, std::size_t bytes, void * to);
 

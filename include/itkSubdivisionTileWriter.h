@@ -46,11 +46,6 @@ public:
     , m_IsLarge(image->GetBufferedRegion().GetNumberOfPixels() * m_Components * sizeof(ComponentType) > CacheSize)
   {}
 
-  ~SubdivisionTileWriter() = default;
-  SubdivisionTileWriter(const SubdivisionTileWriter &) = delete;
-  SubdivisionTileWriter &
-  operator=(const SubdivisionTileWriter &) = delete;
-
   /** Chooses the position along the axes that are not the tile's, and the component that is written. */
   void
   SetImage(const IndexType & position, const unsigned int component)

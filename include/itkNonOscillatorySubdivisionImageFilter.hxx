@@ -518,7 +518,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(Kerne
   const auto writeChildren = [&](const IndexValueType row, const IndexValueType endPlane, const unsigned int planes) {
     for (int rowChild = 0; rowChild < rowChildren; ++rowChild)
     {
-      const auto           children = kernel.ComputeChildren(static_cast<std::size_t>(row), rowChild, planes);
+      kernel.ComputeRow(static_cast<std::size_t>(row), rowChild, planes);
       const IndexValueType childRow = SubdivisionMasks::Children * (firstRow + row) + rowChild;
       for (unsigned int age = 0; age < planes; ++age)
       {
@@ -526,7 +526,8 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SweepTile(Kerne
         for (int sweepChild = 0; sweepChild < sweepChildren; ++sweepChild)
         {
           const IndexValueType childPlane = SubdivisionMasks::Children * plane + sweepChild;
-          report(writer.WriteChildren(children.Rows[age][sweepChild], width, firstLane, childRow, childPlane));
+          const auto * const   children = kernel.ComputeChildren(age, sweepChild);
+          report(writer.WriteChildren(children, width, firstLane, childRow, childPlane));
         }
       }
     }

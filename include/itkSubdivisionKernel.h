@@ -53,7 +53,12 @@ NonOscillatorySubdivision_EXPORT std::string
  *   {
  *     for (row = 0; row < height; ++row)
  *       for (rowChild = 0; rowChild < 2; ++rowChild)
- *         use kernel.ComputeChildren(row, rowChild, complete);
+ *       {
+ *         kernel.ComputeRow(row, rowChild, complete);
+ *         for (age = 0; age < complete; ++age)
+ *           for (sweepChild = 0; sweepChild < 2; ++sweepChild)
+ *             use kernel.ComputeChildren(age, sweepChild);
+ *       }
  *     complete = 0;
  *   }
  * }
@@ -74,13 +79,6 @@ public:
 
   /** Planes whose children are best computed together, since they share most of what they read. */
   static constexpr unsigned int PlanesPerStep = 8;
-
-  /** Rows of children, by [planes completed since theirs][child along the sweep], each with both children along the
-   * lanes of every voxel, in the order that InterleaveChildren takes. Without a sweep there is only child 0. */
-  struct ChildRows
-  {
-    const TReal * Rows[PlanesPerStep][2];
-  };
 
   /** A kernel for tiles of at most the given size in voxels.
    * \param scheme the scheme of all tiles
@@ -118,12 +116,19 @@ public:
   unsigned int
   AdvancePlane();
 
-  /** The children of one row in the planes that were completed last. They last until the next call.
+  /** Begins the children of one row in the planes that were completed last.
    * \param row the row of the voxels
    * \param rowChild the child from row to row, 0 or 1; 0 unless there are three axes
    * \param planes the number of planes, 1 to PlanesPerStep */
-  ChildRows
-  ComputeChildren(std::size_t row, unsigned int rowChild, unsigned int planes);
+  void
+  ComputeRow(std::size_t row, unsigned int rowChild, unsigned int planes);
+
+  /** Both children along the lanes of every voxel of that row in one plane, in the order that InterleaveChildren takes.
+   * They last until the next call.
+   * \param age the number of planes completed since
+   * \param sweepChild the child from plane to plane, 0 or 1; 0 without a sweep */
+  const TReal *
+  ComputeChildren(unsigned int age, unsigned int sweepChild);
 
 private:
   struct Implementation;

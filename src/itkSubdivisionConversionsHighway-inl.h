@@ -58,22 +58,49 @@ ConvertRow(const TPixel * in, std::size_t count, float * out)
   }
 }
 
-/** Lanes whose lowest bits are the pixel: rounded to nearest, ties to even, and saturated; NaN becomes 0. The bits
- * above are not specified. */
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+// Highway's NearestInt saturates, which costs more than to round. Here only the largest values are at stake, and those
+// are bounded before.
+HWY_INLINE hn::Vec128<std::int32_t>
+           NearestIntegers(hn::Vec128<float> v)
+{
+  return hn::Vec128<std::int32_t>{ _mm_cvtps_epi32(v.raw) };
+}
+#  if HWY_TARGET <= HWY_AVX2
+HWY_INLINE hn::Vec256<std::int32_t>
+           NearestIntegers(hn::Vec256<float> v)
+{
+  return hn::Vec256<std::int32_t>{ _mm256_cvtps_epi32(v.raw) };
+}
+#  endif
+#  if HWY_TARGET <= HWY_AVX3
+HWY_INLINE hn::Vec512<std::int32_t>
+           NearestIntegers(hn::Vec512<float> v)
+{
+  return hn::Vec512<std::int32_t>{ _mm512_cvtps_epi32(v.raw) };
+}
+#  endif
+#else
+HWY_INLINE hn::Vec<IntegerTag>
+           NearestIntegers(hn::Vec<FloatTag> v)
+{
+  return hn::NearestInt(v);
+}
+#endif
+
+/** Pixels: rounded to nearest, ties to even, and saturated; NaN becomes 0. */
 template <typename TPixel>
 HWY_INLINE hn::Vec<IntegerTag>
            RoundLanes(hn::Vec<FloatTag> value)
 {
   constexpr FloatTag d;
+  // The integer next to NaN is 0 or the smallest one, which suits unsigned pixels.
   if (std::is_signed<TPixel>::value)
   {
     value = hn::IfThenElseZero(hn::Eq(value, value), value);
   }
-  // For unsigned pixels the lower bound turns NaN into 0.
-  value = OrderedMax(value, hn::Set(d, static_cast<float>(hwy::LowestValue<TPixel>())));
-  value = OrderedMin(value, hn::Set(d, static_cast<float>(hwy::HighestValue<TPixel>())));
-  // Adding this moves the integer to the end of the mantissa.
-  return hn::BitCast(IntegerTag(), hn::Add(value, hn::Set(d, 12582912.0f)));
+  const auto bounded = OrderedMin(hn::Set(d, static_cast<float>(hwy::HighestValue<TPixel>())), value);
+  return hn::Max(NearestIntegers(bounded), hn::Set(IntegerTag(), hwy::LowestValue<TPixel>()));
 }
 
 /** Stores both children of one vector of voxels. */
@@ -83,8 +110,12 @@ StoreChildren(hn::Vec<FloatTag> lower, hn::Vec<FloatTag> upper, TPixel * out)
 {
   // A pair of children fills half a lane or a whole one, the lower child first: Highway's targets are little-endian.
   constexpr int bits = 8 * sizeof(TPixel);
-  const auto    lowerBits = hn::And(RoundLanes<TPixel>(lower), hn::Set(IntegerTag(), (1 << bits) - 1));
-  const auto    pairs = hn::Or(lowerBits, hn::ShiftLeft<bits>(RoundLanes<TPixel>(upper)));
+  auto          lowerBits = RoundLanes<TPixel>(lower);
+  if (std::is_signed<TPixel>::value)
+  {
+    lowerBits = hn::And(lowerBits, hn::Set(IntegerTag(), (1 << bits) - 1));
+  }
+  const auto pairs = hn::Or(lowerBits, hn::ShiftLeft<bits>(RoundLanes<TPixel>(upper)));
   if constexpr (sizeof(TPixel) == 2)
   {
     hn::StoreU(pairs, IntegerTag(), reinterpret_cast<std::int32_t *>(out));

@@ -170,9 +170,7 @@ struct SubdivisionKernel<TReal>::Implementation
     constexpr std::size_t overrun = WidestVector / sizeof(TReal);
     const std::size_t rowLength = (halo + width + SubdivisionMasks::ThresholdedRadius + overrun + line) / line * line;
     const std::size_t rowHalo = Sweep.HasRowAxis ? SubdivisionMasks::ThresholdedRadius : 0;
-    const std::size_t childRowLength = 2 * ((width + overrun + line - 1) / line * line);
     Sweep.Pitch = static_cast<std::ptrdiff_t>(rowLength);
-    Sweep.ChildPitch = static_cast<std::ptrdiff_t>(childRowLength);
 
     // The same voxel of successive planes shall not compete for the same lines of the cache.
     const auto planeLength = [](const std::size_t values) {
@@ -183,8 +181,7 @@ struct SubdivisionKernel<TReal>::Implementation
     const auto plane = [&] {
       return Memory.Take(planeLength(rowLength * (height + 2 * rowHalo))) + rowHalo * rowLength + halo;
     };
-    const auto childRow = [&] { return Memory.Take(childRowLength); };
-    const auto childPlane = [&] { return Memory.Take(planeLength(childRowLength * height)); };
+    const auto planeOfChildren = [&] { return Memory.Take(planeLength(rowLength * height)) + halo; };
     const auto ring = [](auto & entries, const auto & take) {
       for (auto & entry : entries.Entry)
       {
@@ -198,18 +195,23 @@ struct SubdivisionKernel<TReal>::Implementation
     ring(Sweep.Input, plane);
     for (int child = 0; child < 2; ++child)
     {
-      ring(Sweep.FlatChildren[child], childPlane);
+      ring(Sweep.FlatChildren[child][0], planeOfChildren);
       if (isThresholded)
       {
-        ring(Sweep.SteepChildren[child], childPlane);
+        ring(Sweep.FlatChildren[child][1], planeOfChildren);
+        ring(Sweep.SteepChildren[child][0], planeOfChildren);
+        ring(Sweep.SteepChildren[child][1], planeOfChildren);
       }
     }
-    for (auto & children : Sweep.Children)
+    for (auto & childrenOfPlane : Sweep.SweepChildren)
     {
-      children[0] = childRow();
-      children[1] = childRow();
+      for (auto & children : childrenOfPlane)
+      {
+        children[0] = row();
+        children[1] = row();
+      }
     }
-    ring(rows.Values[0], childRow);
+    Sweep.Children = Memory.Take(2 * rowLength);
     if (isThresholded)
     {
       for (int subset = 0; subset < SubsetsInPlane; ++subset)
@@ -234,9 +236,6 @@ struct SubdivisionKernel<TReal>::Implementation
         ring(rows.SweepCurvature[i], row);
         rows.RowCurvature[i] = row();
       }
-      ring(rows.Values[1], childRow);
-      ring(rows.SecondDifferences[0], childRow);
-      ring(rows.SecondDifferences[1], childRow);
     }
     if (isBounded)
     {
@@ -244,6 +243,11 @@ struct SubdivisionKernel<TReal>::Implementation
       ring(Sweep.LargestNeighbour, plane);
       ring(rows.Smallest, row);
       ring(rows.Largest, row);
+      for (unsigned int age = 0; age < PlanesPerStep; ++age)
+      {
+        Sweep.SmallestOfRow[age] = row();
+        Sweep.LargestOfRow[age] = row();
+      }
     }
   }
 };
@@ -316,19 +320,19 @@ SubdivisionKernel<TReal>::AdvancePlane()
 }
 
 template <typename TReal>
-auto
-SubdivisionKernel<TReal>::ComputeChildren(std::size_t row, unsigned int rowChild, unsigned int planes) -> ChildRows
+void
+SubdivisionKernel<TReal>::ComputeRow(std::size_t row, unsigned int rowChild, unsigned int planes)
 {
-  const auto & sweep = m_Implementation->Sweep;
-  m_Implementation->Steps.ComputeChildren(
-    sweep, static_cast<std::ptrdiff_t>(row), static_cast<int>(rowChild), static_cast<int>(planes));
-  ChildRows children;
-  for (unsigned int age = 0; age < PlanesPerStep; ++age)
-  {
-    children.Rows[age][0] = sweep.Children[age][0];
-    children.Rows[age][1] = sweep.Children[age][1];
-  }
-  return children;
+  m_Implementation->Steps.ComputeRow(
+    m_Implementation->Sweep, static_cast<std::ptrdiff_t>(row), static_cast<int>(rowChild), static_cast<int>(planes));
+}
+
+template <typename TReal>
+const TReal *
+SubdivisionKernel<TReal>::ComputeChildren(unsigned int age, unsigned int sweepChild)
+{
+  m_Implementation->Steps.ComputeChildren(m_Implementation->Sweep, static_cast<int>(age), static_cast<int>(sweepChild));
+  return m_Implementation->Sweep.Children;
 }
 
 template class SubdivisionKernel<float>;

@@ -31,8 +31,8 @@ HWY_INLINE Vector<T>
   return hn::LoadU(Tag<T>(), p);
 }
 
-/** A value that is used more than once. Without this, GCC loads it once more for every use, and loads are what the
- * filters along the lanes wait for. */
+/** A value, constant or not, that is used more than once. Without this, GCC loads it once more for every use, and loads
+ * are what the loops over rows wait for. */
 template <typename TVector>
 HWY_INLINE TVector
 Hold(TVector v)
@@ -115,7 +115,6 @@ HWY_INLINE Vector<T>
   return hn::Set(Tag<T>(), static_cast<T>(value));
 }
 
-using hn::Abs;
 using hn::Add;
 using hn::Mul;
 using hn::MulAdd;
@@ -123,6 +122,17 @@ using hn::MulSub;
 using hn::Neg;
 using hn::NegMulAdd;
 using hn::Sub;
+
+/** The absolute value. */
+template <typename TVector>
+HWY_INLINE TVector
+Magnitude(TVector v)
+{
+  using D = hn::DFromV<TVector>;
+  constexpr hn::RebindToUnsigned<D> bits;
+  const auto                        allButSign = hn::Set(bits, ~hwy::SignMask<hn::TFromD<D>>());
+  return hn::And(v, Hold(hn::BitCast(D(), allButSign)));
+}
 
 /** The second value where either is NaN, as x86 does by itself; other instruction sets differ. */
 template <typename TVector>

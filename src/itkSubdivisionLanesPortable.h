@@ -124,9 +124,10 @@ Neg(T a)
   return -a;
 }
 
+/** The absolute value. */
 template <typename T>
 inline T
-Abs(T a)
+Magnitude(T a)
 {
   return std::abs(a);
 }

@@ -10,66 +10,67 @@ namespace itk
 namespace SUBDIVISION_TARGET
 {
 
-/** The length of a row of both children of every voxel along the lanes. */
+/** The mask for the values. */
 template <typename T>
-SUBDIVISION_INLINE std::ptrdiff_t
-                   ChildWidth(const SubdivisionSweep<T> & s)
+SUBDIVISION_INLINE const SharedMask<2> &
+                         MaskOfValues(const SubdivisionSweep<T> & s)
 {
-  return 2 * ((s.Width + LaneCount<T>() - 1) / LaneCount<T>() * LaneCount<T>());
+  using Scheme = NonOscillatorySubdivisionImageFilterEnums::Scheme;
+  return s.Scheme == Scheme::Linear || s.Scheme == Scheme::BoundedLinear ? LinearMask : BSplineMask;
 }
 
-/** The children within one of the planes that are computed together, of rows of \c field and of its limited second
- * differences; with a row axis, of the rows whose stencils these complete. */
-template <bool VRowAxis, typename T, typename TField>
-void
-FilterFields(SubdivisionSweep<T> & s,
-             const int             plane,
-             const std::ptrdiff_t  begin,
-             const std::ptrdiff_t  end,
-             const TField &        field,
-             T * const             lowerChildren,
-             T * const             upperChildren)
+/** Rows of a plane around one of them; \c rowOfPlane gives a row by its index. */
+template <int VRadius, typename T, typename TRow>
+SUBDIVISION_INLINE AcrossRows<T, VRadius>
+                   RowsAroundRow(const TRow & rowOfPlane, const std::ptrdiff_t row)
 {
-  const std::ptrdiff_t width = s.Width;
-  const auto filterLanes = [=](const T * const row, const T * const curvature, T * const result) SUBDIVISION_ATTRIBUTE {
-    FilterRow<T>(AlongLanes<T>{ row }, AlongLanes<T>{ curvature }, BSplineMask, width, ChildrenAlongLanes<T>{ result });
-  };
-  if constexpr (!VRowAxis)
+  AcrossRows<T, VRadius> rows;
+  for (int i = 0; i <= 2 * VRadius; ++i)
   {
-    filterLanes(field(0), LimitedRow(s, plane, LaneAxis, 0), lowerChildren);
+    rows.Row[i] = rowOfPlane(row + VRadius - i);
   }
-  else
+  return rows;
+}
+
+/** How far beyond the tile the pass along the lanes needs its values, and the second differences along the lanes. */
+SUBDIVISION_INLINE std::ptrdiff_t
+                   ReachOfField(const int laneAxis)
+{
+  return laneAxis == LaneAxis ? SecondDifferenceReach : ValueReach;
+}
+
+/** Children across rows of limited fields, of the rows whose stencils the rows from \c begin to \c end complete.
+ * \c field gives a row of a field by its axes in the plane and its index; \c children, a plane for either child of the
+ * fields without or with the lane axis. Without a row axis, the fields themselves. */
+template <bool VRowAxis, typename T, typename TField, typename TChildren>
+SUBDIVISION_INLINE void
+FilterFields(const SubdivisionSweep<T> & s,
+             const std::ptrdiff_t        begin,
+             const std::ptrdiff_t        end,
+             const TField &              field,
+             const TChildren &           children)
+{
+  for (const int laneAxis : { NoAxisInPlane, LaneAxis })
   {
-    // Copies, which the compiler keeps at hand.
-    auto valueRows = s.Rows.Values[plane];
-    auto secondDifferenceRows = s.Rows.SecondDifferences[plane];
-    for (std::ptrdiff_t r = begin; r < end; ++r)
+    const auto values = [&](const std::ptrdiff_t r) { return field(laneAxis, r); };
+    const auto secondDifferences = [&](const std::ptrdiff_t r) { return field(laneAxis | RowAxis, r); };
+    if constexpr (!VRowAxis)
     {
-      valueRows.Rotate();
-      if (HasLaneFields<VRowAxis>(s, r))
+      CopyRow(values(0), ReachOfField(laneAxis), s.Width, children(0, laneAxis));
+    }
+    else
+    {
+      for (std::ptrdiff_t r = std::max<std::ptrdiff_t>(begin - SumReach, 0); r < end - SumReach; ++r)
       {
-        filterLanes(field(r), LimitedRow(s, plane, LaneAxis, r), valueRows[0]);
-      }
-      if (HasRowFields(r))
-      {
-        const std::ptrdiff_t back = r - SubdivisionMasks::WindowRadius;
-        secondDifferenceRows.Rotate();
-        filterLanes(
-          LimitedRow(s, plane, RowAxis, back), LimitedRow(s, plane, BothAxesInPlane, back), secondDifferenceRows[0]);
-      }
-      const std::ptrdiff_t complete = r - SumReach;
-      if (complete >= 0)
-      {
-        const std::ptrdiff_t offset = complete * s.ChildPitch;
-        FilterRow<T>(RowsAround<3>(valueRows, SumReach - ValueReach, 0),
-                     RowsAround<2>(secondDifferenceRows, 0, 0),
+        const std::ptrdiff_t here = r * s.Pitch;
+        FilterRow<T>(RowsAroundRow<3, T>(values, r),
+                     RowsAroundRow<2, T>(secondDifferences, r),
                      BSplineMask,
-                     ChildWidth(s),
-                     ChildrenAcrossRows<T>{ lowerChildren + offset, upperChildren + offset });
+                     ReachOfField(laneAxis),
+                     s.Width,
+                     ChildrenAcrossRows<T>{ children(0, laneAxis) + here, children(1, laneAxis) + here });
       }
     }
-    s.Rows.Values[plane] = valueRows;
-    s.Rows.SecondDifferences[plane] = secondDifferenceRows;
   }
 }
 
@@ -100,8 +101,11 @@ AdvanceFlatFields(SubdivisionSweep<T> & s)
   const T * const plane = s.HasSweepAxis ? s.Input[2] : s.Input[0];
   const auto      limit = [&](const std::ptrdiff_t r) SUBDIVISION_ATTRIBUTE { LimitFlatFields<VRowAxis>(s, plane, r); };
   const auto      filter = [&](const std::ptrdiff_t begin, const std::ptrdiff_t end) SUBDIVISION_ATTRIBUTE {
-    const auto values = [&](const std::ptrdiff_t r) { return plane + r * s.Pitch; };
-    FilterFields<VRowAxis>(s, 0, begin, end, values, s.FlatChildren[0][0], s.FlatChildren[1][0]);
+    const auto field = [&](const int axes, const std::ptrdiff_t r) {
+      return axes == NoAxisInPlane ? plane + r * s.Pitch : LimitedRow(s, 0, axes, r);
+    };
+    const auto children = [&](const int child, const int laneAxis) { return s.FlatChildren[child][laneAxis][0]; };
+    FilterFields<VRowAxis>(s, begin, end, field, children);
   };
   // The first row is there for the differences between it and the next one only.
   LimitAndFilter<T>(VRowAxis ? -SumReach - 1 : 0, VRowAxis ? s.Height + SumReach : 1, limit, filter);
@@ -112,10 +116,13 @@ template <bool VRowAxis, typename T>
 void
 AdvanceSteepFields(SubdivisionSweep<T> & s, const bool areWindowsComplete)
 {
-  for (auto & children : s.SteepChildren)
+  for (auto & childrenAcrossRows : s.SteepChildren)
   {
-    children.Rotate();
-    children.Rotate();
+    for (auto & children : childrenAcrossRows)
+    {
+      children.Rotate();
+      children.Rotate();
+    }
   }
   const auto limit = [&](const std::ptrdiff_t r) SUBDIVISION_ATTRIBUTE {
     AdvanceSlopes(s, VRowAxis ? r + 1 : r);
@@ -124,9 +131,11 @@ AdvanceSteepFields(SubdivisionSweep<T> & s, const bool areWindowsComplete)
   const auto filter = [&](const std::ptrdiff_t begin, const std::ptrdiff_t end) SUBDIVISION_ATTRIBUTE {
     for (int plane = 0; plane < 2 && areWindowsComplete; ++plane)
     {
-      const int  age = 1 - plane;
-      const auto slopes = [&](const std::ptrdiff_t r) { return LimitedRow(s, plane, NoAxisInPlane, r); };
-      FilterFields<VRowAxis>(s, plane, begin, end, slopes, s.SteepChildren[0][age], s.SteepChildren[1][age]);
+      const auto field = [&](const int axes, const std::ptrdiff_t r) { return LimitedRow(s, plane, axes, r); };
+      const auto children = [&](const int child, const int laneAxis) {
+        return s.SteepChildren[child][laneAxis][1 - plane];
+      };
+      FilterFields<VRowAxis>(s, begin, end, field, children);
     }
   };
   if constexpr (VRowAxis)
@@ -173,33 +182,26 @@ AdvanceNeighbours(SubdivisionSweep<T> & s)
   }
 }
 
-/** The children within the plane of the values alone. */
+/** Children across rows of the values alone. */
 template <typename T>
 void
-AdvanceValues(SubdivisionSweep<T> & s, const SharedMask<2> & mask)
+AdvanceValues(SubdivisionSweep<T> & s)
 {
-  auto &     buffers = s.Rows;
-  const auto filterLanes = [&](const T * const row, T * const result) SUBDIVISION_ATTRIBUTE {
-    FilterRow<T>(AlongLanes<T>{ row }, NoSecondDifferences{}, mask, s.Width, ChildrenAlongLanes<T>{ result });
-  };
+  const auto values = [&](const std::ptrdiff_t r) { return s.Input[0] + r * s.Pitch; };
   if (!s.HasRowAxis)
   {
-    filterLanes(s.Input[0], s.FlatChildren[0][0]);
+    CopyRow(values(0), ValueReach, s.Width, s.FlatChildren[0][0][0]);
     return;
   }
-  for (std::ptrdiff_t r = -ValueReach; r < s.Height + ValueReach; ++r)
+  for (std::ptrdiff_t r = 0; r < s.Height; ++r)
   {
-    buffers.Values[0].Rotate();
-    filterLanes(s.Input[0] + r * s.Pitch, buffers.Values[0][0]);
-    if (r - ValueReach >= 0)
-    {
-      const std::ptrdiff_t back = (r - ValueReach) * s.ChildPitch;
-      FilterRow<T>(RowsAround<3>(buffers.Values[0], 0, 0),
-                   NoSecondDifferences{},
-                   mask,
-                   ChildWidth(s),
-                   ChildrenAcrossRows<T>{ s.FlatChildren[0][0] + back, s.FlatChildren[1][0] + back });
-    }
+    const std::ptrdiff_t here = r * s.Pitch;
+    FilterRow<T>(RowsAroundRow<3, T>(values, r),
+                 NoSecondDifferences{},
+                 MaskOfValues(s),
+                 ValueReach,
+                 s.Width,
+                 ChildrenAcrossRows<T>{ s.FlatChildren[0][0][0] + here, s.FlatChildren[1][0][0] + here });
   }
 }
 
@@ -210,9 +212,12 @@ AdvancePlane(SubdivisionSweep<T> & s)
 {
   using Scheme = NonOscillatorySubdivisionImageFilterEnums::Scheme;
   ++s.Planes;
-  for (auto & children : s.FlatChildren)
+  for (auto & childrenAcrossRows : s.FlatChildren)
   {
-    children.Rotate();
+    for (auto & children : childrenAcrossRows)
+    {
+      children.Rotate();
+    }
   }
   if (s.Scheme == Scheme::NonOscillatory)
   {
@@ -231,7 +236,7 @@ AdvancePlane(SubdivisionSweep<T> & s)
   }
   else
   {
-    AdvanceValues(s, s.Scheme == Scheme::BSpline ? BSplineMask : LinearMask);
+    AdvanceValues(s);
     if (s.Scheme == Scheme::BoundedLinear)
     {
       AdvanceNeighbours(s);
@@ -239,75 +244,104 @@ AdvancePlane(SubdivisionSweep<T> & s)
   }
 }
 
+/** Smallest and largest neighbour of the voxels of a row. */
+template <typename T>
+SUBDIVISION_INLINE void
+FindBounds(const SubdivisionSweep<T> & s, const std::ptrdiff_t offset, const int age)
+{
+  if (s.HasSweepAxis)
+  {
+    FindExtrema(RowsAround<1>(s.SmallestNeighbour, age + 2, offset),
+                RowsAround<1>(s.LargestNeighbour, age + 2, offset),
+                s.Width,
+                s.SmallestOfRow[age],
+                s.LargestOfRow[age]);
+  }
+  else
+  {
+    CopyRow(s.SmallestNeighbour[age] + offset, 0, s.Width, s.SmallestOfRow[age]);
+    CopyRow(s.LargestNeighbour[age] + offset, 0, s.Width, s.LargestOfRow[age]);
+  }
+}
+
 /** Clamps the children of a row to the smallest and largest neighbour of their parents; those that are not finite stay
  * as they are. */
 template <typename T>
-void
-BoundChildren(const SubdivisionSweep<T> & s, const std::ptrdiff_t row, const int age)
+SUBDIVISION_INLINE void
+BoundChildren(const SubdivisionSweep<T> & s, const int age)
 {
-  const int            newest = s.HasSweepAxis ? age + 2 : age;
-  const std::ptrdiff_t offset = row * s.Pitch;
-  const auto           smallest = RowsAround<1>(s.SmallestNeighbour, newest, offset);
-  const auto           largest = RowsAround<1>(s.LargestNeighbour, newest, offset);
   for (std::ptrdiff_t x = 0; x < s.Width; x += LaneCount<T>())
   {
-    auto low = smallest(x, 1);
-    auto high = largest(x, 1);
-    if (s.HasSweepAxis)
+    const auto low = Load(s.SmallestOfRow[age] + x);
+    const auto high = Load(s.LargestOfRow[age] + x);
+    for (int child = 0; child < 2; ++child)
     {
-      low = OrderedMin(OrderedMin(low, smallest(x, 0)), smallest(x, -1));
-      high = OrderedMax(OrderedMax(high, largest(x, 0)), largest(x, -1));
-    }
-    for (int child = 0; child < (s.HasSweepAxis ? 4 : 2); ++child)
-    {
-      T * const  values = s.Children[age][child / 2] + 2 * x + child % 2 * LaneCount<T>();
+      T * const  values = s.Children + 2 * x + child * LaneCount<T>();
       const auto value = Load(values);
       Store(IfFinite(value, OrderedMin(OrderedMax(value, low), high)), values);
     }
   }
 }
 
-/** Of the planes that were completed last, one row of children within the plane, and its children along the sweep. */
+/** Of one row of children across rows, the children across planes, in the planes that were completed last. */
 template <typename T>
 void
-ComputeChildren(const SubdivisionSweep<T> & s, const std::ptrdiff_t row, const int rowChild, const int planes)
+ComputeRow(const SubdivisionSweep<T> & s, const std::ptrdiff_t row, const int rowChild, const int planes)
 {
   using Scheme = NonOscillatorySubdivisionImageFilterEnums::Scheme;
-  const std::ptrdiff_t childWidth = ChildWidth(s);
-  // Planes share most of what they read: a strip of it stays in the first-level cache.
-  constexpr std::ptrdiff_t strip = 256;
-  for (std::ptrdiff_t x = 0; x < childWidth; x += strip)
+  const std::ptrdiff_t offset = row * s.Pitch;
+  const bool           isThresholded = s.Scheme == Scheme::NonOscillatory;
+  // One field after the other, since the planes share most of what they read of it.
+  for (int laneAxis = NoAxisInPlane; laneAxis <= (isThresholded ? LaneAxis : NoAxisInPlane); ++laneAxis)
   {
-    const std::ptrdiff_t width = std::min(strip, childWidth - x);
-    const std::ptrdiff_t offset = row * s.ChildPitch + x;
+    const auto & flat = s.FlatChildren[rowChild][laneAxis];
+    const auto & steep = s.SteepChildren[rowChild][laneAxis];
+    const auto   reach = ReachOfField(laneAxis);
     for (int age = planes - 1; age >= 0; --age)
     {
-      const ChildrenAcrossRows<T> children{ s.Children[age][0] + x, s.Children[age][1] + x };
+      const ChildrenAcrossRows<T> children{ s.SweepChildren[age][0][laneAxis], s.SweepChildren[age][1][laneAxis] };
       if (!s.HasSweepAxis)
       {
-        CopyRow(s.FlatChildren[rowChild][age] + offset, width, s.Children[age][0] + x);
+        CopyRow(flat[age] + offset, reach, s.Width, children.Before);
       }
-      else if (s.Scheme == Scheme::NonOscillatory)
+      else if (isThresholded)
       {
-        FilterRow<T>(RowsAround<3>(s.FlatChildren[rowChild], age, offset),
-                     RowsAround<2>(s.SteepChildren[rowChild], age, offset),
-                     BSplineMask,
-                     width,
-                     children);
+        FilterRow<T>(
+          RowsAround<3>(flat, age, offset), RowsAround<2>(steep, age, offset), BSplineMask, reach, s.Width, children);
       }
       else
       {
-        FilterRow<T>(RowsAround<3>(s.FlatChildren[rowChild], age, offset),
-                     NoSecondDifferences{},
-                     s.Scheme == Scheme::BSpline ? BSplineMask : LinearMask,
-                     width,
-                     children);
+        FilterRow<T>(
+          RowsAround<3>(flat, age, offset), NoSecondDifferences{}, MaskOfValues(s), reach, s.Width, children);
       }
     }
   }
   for (int age = 0; age < planes && s.Scheme == Scheme::BoundedLinear; ++age)
   {
-    BoundChildren(s, row, age);
+    FindBounds(s, offset, age);
+  }
+}
+
+/** Of one row of children across planes, the children along the lanes. */
+template <typename T>
+void
+ComputeChildren(const SubdivisionSweep<T> & s, const int age, const int sweepChild)
+{
+  using Scheme = NonOscillatorySubdivisionImageFilterEnums::Scheme;
+  const auto &                row = s.SweepChildren[age][sweepChild];
+  const AlongLanes<T>         values{ row[0] };
+  const ChildrenAlongLanes<T> children{ s.Children };
+  if (s.Scheme == Scheme::NonOscillatory)
+  {
+    FilterRow<T>(values, AlongLanes<T>{ row[LaneAxis] }, BSplineMask, 0, s.Width, children);
+  }
+  else
+  {
+    FilterRow<T>(values, NoSecondDifferences{}, MaskOfValues(s), 0, s.Width, children);
+  }
+  if (s.Scheme == Scheme::BoundedLinear)
+  {
+    BoundChildren(s, age);
   }
 }
 

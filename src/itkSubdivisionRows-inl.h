@@ -114,13 +114,14 @@ constexpr auto BSplineMask = SharedMask<2>::FromMask(SubdivisionMasks::BSpline);
 constexpr auto LinearMask = SharedMask<2>::FromMask(SubdivisionMasks::Linear);
 constexpr auto SecondDifferenceMask = SharedMask<1>::FromMask(SubdivisionMasks::SecondDifference);
 
-/** Both children of every voxel of a row along one axis: the values under a mask of six taps, plus the second
- * differences, if any, under theirs. */
+/** Both children along one axis of every voxel of a row, and of \c reach voxels on either side: the values under a mask
+ * of six taps, plus the second differences, if any, under theirs. */
 template <typename T, typename TValues, typename TSecondDifferences, typename TChildren>
 SUBDIVISION_INLINE void
 FilterRow(const TValues            values,
           const TSecondDifferences secondDifferences,
           const SharedMask<2> &    mask,
+          const std::ptrdiff_t     reach,
           const std::ptrdiff_t     width,
           const TChildren          children)
 {
@@ -135,7 +136,7 @@ FilterRow(const TValues            values,
   const auto curvedOdd = Broadcast<T>(SecondDifferenceMask.Odd[0]);
   const auto curvedOuter = Broadcast<T>(SecondDifferenceMask.Outer);
 
-  for (std::ptrdiff_t x = 0; x < width; x += LaneCount<T>())
+  for (std::ptrdiff_t x = FirstVector<T>(reach); x < width + reach; x += LaneCount<T>())
   {
     const auto before2 = Hold(values(x, -2));
     const auto before1 = Hold(values(x, -1));
@@ -294,9 +295,12 @@ FindExtrema(const TValues        smallestOf,
 
 template <typename T>
 SUBDIVISION_INLINE void
-CopyRow(const T * const __restrict values, const std::ptrdiff_t end, T * const __restrict result)
+CopyRow(const T * const __restrict values,
+        const std::ptrdiff_t reach,
+        const std::ptrdiff_t width,
+        T * const __restrict result)
 {
-  for (std::ptrdiff_t x = 0; x < end; x += LaneCount<T>())
+  for (std::ptrdiff_t x = FirstVector<T>(reach); x < width + reach; x += LaneCount<T>())
   {
     Store(Load(values + x), result + x);
   }

@@ -57,9 +57,7 @@ enum SubdivisionAxesInPlane
 
 /** All that a sweep through a tile keeps, as plain data that the code of every target can use.
  *
- * Planes and rows are addressed by their voxel (0, 0) or 0; row r of a plane begins r * Pitch further on, or r *
- * ChildPitch in planes of children, whose rows hold both children of every voxel along the lanes: a vector of lower
- * ones and a vector of upper ones in turns. What is named after a plane index t is relative to the newest input plane.
+ * Planes and rows are addressed by their voxel (0, 0) or 0; row r of a plane begins r * Pitch further on.
  * A field of the scheme (docs/scheme.md, section 3) belongs to a subset A of the axes; "flat" fields are those whose
  * subset lacks the sweep axis, "steep" ones those whose subset has it. */
 template <typename T>
@@ -71,7 +69,8 @@ struct SubdivisionSweep
   static constexpr int ValuePlanes = 7 + PlanesPerStep - 1;
   static constexpr int SecondDifferencePlanes = 5 + PlanesPerStep - 1;
   static constexpr int NeighbourPlanes = 5 + PlanesPerStep - 1;
-  /** Rows that are limited before they are filtered. */
+  /** Rows that are limited before they are filtered. Few, so that the cache still holds them; not one by one, or what
+   * either step keeps from row to row would leave the first-level cache. */
   static constexpr std::ptrdiff_t RowsPerStep = 16;
   /** A power of two that holds the rows of a step and those before them that it still needs. */
   static constexpr std::ptrdiff_t LimitedRows = 2 * RowsPerStep;
@@ -84,7 +83,6 @@ struct SubdivisionSweep
   std::ptrdiff_t Width;
   std::ptrdiff_t Height;
   std::ptrdiff_t Pitch;
-  std::ptrdiff_t ChildPitch;
 
   /** Planes taken since the tile began, and planes that the tile needs, with its halo. */
   std::ptrdiff_t Planes;
@@ -101,9 +99,10 @@ struct SubdivisionSweep
   /** The input planes; the caller writes entry 0. */
   SubdivisionRing<T, ThresholdedInputs> Input;
 
-  /** Children within their plane of the flat fields' sum, by [child across rows], and of the steep fields' sum. */
-  SubdivisionRing<T, ValuePlanes>            FlatChildren[2];
-  SubdivisionRing<T, SecondDifferencePlanes> SteepChildren[2];
+  /** Children across rows of the flat and of the steep fields, by [child across rows][sums of the fields without and
+   * with the lane axis]. */
+  SubdivisionRing<T, ValuePlanes>            FlatChildren[2][2];
+  SubdivisionRing<T, SecondDifferencePlanes> SteepChildren[2][2];
 
   /** Limited fields, by [plane: earlier, later][subset in plane]; only the steep ones need two planes, and the flat
    * field of no axis is the input itself. */
@@ -136,24 +135,30 @@ struct SubdivisionSweep
     /** Second differences along the sweep, and along rows of those or of the values. */
     SubdivisionRing<T, 5> SweepCurvature[2];
     T *                   RowCurvature[2];
-    /** Children along the lanes of the fields without and with the row axis. */
-    SubdivisionRing<T, 8> Values[2];
-    SubdivisionRing<T, 5> SecondDifferences[2];
     /** Smallest and largest neighbour along the lanes. */
     SubdivisionRing<T, 3> Smallest;
     SubdivisionRing<T, 3> Largest;
   } Rows;
 
-  /** Children of one row of children within their plane, by [age of the plane][child along the sweep]. */
-  T * Children[PlanesPerStep][2];
+  /** Of one row of children across rows, the children across planes, by [age of the plane][child along the
+   * sweep][sums of the fields without and with the lane axis]. */
+  T * SweepChildren[PlanesPerStep][2][2];
+  /** Smallest and largest neighbour of the voxels of that row, by [age of the plane]. */
+  T * SmallestOfRow[PlanesPerStep];
+  T * LargestOfRow[PlanesPerStep];
+
+  /** Of one row of children across planes, both children of every voxel along the lanes: a vector of lower ones and a
+   * vector of upper ones in turns. */
+  T * Children;
 };
 
-/** What one instruction set offers: the two steps of a sweep and the conversions of pixels. */
+/** What one instruction set offers: the steps of a sweep and the conversions of pixels. */
 template <typename T>
 struct SubdivisionSweepSteps
 {
   void (*AdvancePlane)(SubdivisionSweep<T> &);
-  void (*ComputeChildren)(const SubdivisionSweep<T> &, std::ptrdiff_t row, int rowChild, int planes);
+  void (*ComputeRow)(const SubdivisionSweep<T> &, std::ptrdiff_t row, int rowChild, int planes);
+  void (*ComputeChildren)(const SubdivisionSweep<T> &, int age, int sweepChild);
 };
 
 template <typename TPixel>

@@ -13,7 +13,7 @@ template <typename T>
 constexpr SubdivisionSweepSteps<T>
 SweepSteps()
 {
-  return { &AdvancePlane<T>, &ComputeChildren<T> };
+  return { &AdvancePlane<T>, &ComputeRow<T>, &ComputeChildren<T> };
 }
 
 template <typename TPixel>

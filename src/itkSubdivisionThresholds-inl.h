@@ -53,14 +53,14 @@ SumDifferences(const T * const      row,
   const auto before = Hold(Load(row + x - 1));
   const auto value = Hold(Load(row + x));
   const auto after = Hold(Load(row + x + 1));
-  lanes = Add(Abs(Sub(value, before)), Abs(Sub(after, value)));
+  lanes = Add(Magnitude(Sub(value, before)), Magnitude(Sub(after, value)));
   if constexpr (VRowAxis)
   {
     const auto difference = Sub(Load(nextRow + x), value);
     const auto differenceBefore = Sub(Load(nextRow + x - 1), before);
     const auto differenceAfter = Sub(Load(nextRow + x + 1), after);
-    rows = Abs(difference);
-    both = Add(Abs(Sub(difference, differenceBefore)), Abs(Sub(differenceAfter, difference)));
+    rows = Magnitude(difference);
+    both = Add(Magnitude(Sub(difference, differenceBefore)), Magnitude(Sub(differenceAfter, difference)));
   }
 }
 
@@ -162,14 +162,29 @@ LimitFlatFields(SubdivisionSweep<T> & s, const T * const plane, const std::ptrdi
   }
 }
 
+/** A row of what windows of planes keep. Loops take copies, since stores of vectors might change what is in memory. */
+template <typename T>
+struct WindowRow
+{
+  const T * MiddlePair;
+  T *       OldestPair;
+  T *       OldestLater;
+
+  WindowRow(const SubdivisionPlaneWindow<T> & window, const std::ptrdiff_t offset)
+    : MiddlePair(window.Pair[0] + offset)
+    , OldestPair(window.Pair[1] + offset)
+    , OldestLater(window.Later[1] + offset)
+  {}
+};
+
 /** Of the minima in the plane of two more planes, makes those of the two windows of planes that they complete. */
 template <typename T, typename TVector>
 SUBDIVISION_INLINE void
-AdvanceWindow(const SubdivisionPlaneWindow<T> & window, const std::ptrdiff_t offset, TVector & earlier, TVector & later)
+AdvanceWindow(const WindowRow<T> & window, const std::ptrdiff_t x, TVector & earlier, TVector & later)
 {
-  T * const  oldestPair = window.Pair[1] + offset;
-  T * const  oldestLater = window.Later[1] + offset;
-  const auto middlePair = Load(window.Pair[0] + offset);
+  T * const  oldestPair = window.OldestPair + x;
+  T * const  oldestLater = window.OldestLater + x;
+  const auto middlePair = Load(window.MiddlePair + x);
   const auto newestLater = later;
   const auto newestPair = MinOfSums(earlier, later);
   earlier = MinOfSums(MinOfSums(middlePair, Load(oldestPair)), earlier);
@@ -190,21 +205,23 @@ AdvanceSlopes(SubdivisionSweep<T> & s, const std::ptrdiff_t r)
     buffers.Slope[plane].Rotate();
     buffers.SweepCurvature[plane].Rotate();
   }
-  T * const       earlierSlope = buffers.Slope[0][0];
-  T * const       laterSlope = buffers.Slope[1][0];
-  T * const       earlierCurvature = buffers.SweepCurvature[0][0];
-  T * const       laterCurvature = buffers.SweepCurvature[1][0];
-  T * const       earlierLimited = LimitedRow(s, 0, NoAxisInPlane, r);
-  T * const       laterLimited = LimitedRow(s, 1, NoAxisInPlane, r);
-  const T * const input0 = s.Input[0] + here;
-  const T * const input1 = s.Input[1] + here;
-  const T * const input2 = s.Input[2] + here;
-  const T * const input3 = s.Input[3] + here;
-  const T * const input4 = s.Input[4] + here;
-  const T * const input5 = s.Input[5] + here;
-  const auto      tension = Broadcast<T>(s.Tension);
-  const auto      two = Broadcast<T>(2);
-  for (std::ptrdiff_t x = FirstVector<T>(SumReach + 1); x < s.Width + SumReach + 1; x += LaneCount<T>())
+  T * const            earlierSlope = buffers.Slope[0][0];
+  T * const            laterSlope = buffers.Slope[1][0];
+  T * const            earlierCurvature = buffers.SweepCurvature[0][0];
+  T * const            laterCurvature = buffers.SweepCurvature[1][0];
+  T * const            earlierLimited = LimitedRow(s, 0, NoAxisInPlane, r);
+  T * const            laterLimited = LimitedRow(s, 1, NoAxisInPlane, r);
+  const T * const      input0 = s.Input[0] + here;
+  const T * const      input1 = s.Input[1] + here;
+  const T * const      input2 = s.Input[2] + here;
+  const T * const      input3 = s.Input[3] + here;
+  const T * const      input4 = s.Input[4] + here;
+  const T * const      input5 = s.Input[5] + here;
+  const auto           tension = Broadcast<T>(s.Tension);
+  const auto           two = Broadcast<T>(2);
+  const WindowRow<T>   window(s.SteepWindows[NoAxisInPlane], here);
+  const std::ptrdiff_t end = s.Width + SumReach + 1;
+  for (std::ptrdiff_t x = FirstVector<T>(SumReach + 1); x < end; x += LaneCount<T>())
   {
     const auto value1 = Hold(Load(input1 + x));
     const auto value2 = Hold(Load(input2 + x));
@@ -215,9 +232,9 @@ AdvanceSlopes(SubdivisionSweep<T> & s, const std::ptrdiff_t r)
     Store(slope1, earlierSlope + x);
     Store(slope0, laterSlope + x);
 
-    auto earlier = Comparable(Add(Abs(slope1), Abs(Sub(value2, value3))));
-    auto later = Comparable(Add(Abs(slope0), Abs(slope1)));
-    AdvanceWindow(s.SteepWindows[NoAxisInPlane], here + x, earlier, later);
+    auto earlier = Comparable(Add(Magnitude(slope1), Magnitude(Sub(value2, value3))));
+    auto later = Comparable(Add(Magnitude(slope0), Magnitude(slope1)));
+    AdvanceWindow(window, x, earlier, later);
 
     const auto curvature4 = NegMulAdd(two, value4, Add(Load(input5 + x), value3));
     const auto curvature3 = NegMulAdd(two, value3, Add(value4, value2));
@@ -291,15 +308,16 @@ LimitSteepRows(SubdivisionSweep<T> & s,
                const TSums           earlierSums,
                const TSums           laterSums)
 {
-  const auto & window = s.SteepWindows[subset];
-  T * const    earlierLimited = LimitedRow(s, 0, subset, r);
-  T * const    laterLimited = LimitedRow(s, 1, subset, r);
-  const auto   tension = Broadcast<T>(s.Tension);
-  for (std::ptrdiff_t x = FirstVector<T>(ValueReach); x < s.Width + ValueReach; x += LaneCount<T>())
+  const WindowRow<T>   window(s.SteepWindows[subset], r * s.Pitch);
+  T * const            earlierLimited = LimitedRow(s, 0, subset, r);
+  T * const            laterLimited = LimitedRow(s, 1, subset, r);
+  const auto           tension = Broadcast<T>(s.Tension);
+  const std::ptrdiff_t end = s.Width + ValueReach;
+  for (std::ptrdiff_t x = FirstVector<T>(ValueReach); x < end; x += LaneCount<T>())
   {
     auto earlier = WindowMinimum(earlierSums, x);
     auto later = WindowMinimum(laterSums, x);
-    AdvanceWindow(window, r * s.Pitch + x, earlier, later);
+    AdvanceWindow(window, x, earlier, later);
     Store(Limit(earlierField(x), tension, earlier), earlierLimited + x);
     Store(Limit(laterField(x), tension, later), laterLimited + x);
   }

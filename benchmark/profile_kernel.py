@@ -18,11 +18,11 @@ from pathlib import Path
 STAGES = {
     "gather": r"SubdivisionTileReader|::ConvertRow",
     "scatter": r"SubdivisionTileWriter|InterleaveChildren|StreamPastCache|::CopyLines",
-    "pass along lanes": r"::FilterRow<.*ChildrenAlongLanes",
+    "bounds": r"::AdvanceNeighbours|::FindBounds|::BoundChildren",
+    "pass along lanes": r"itk::\w+::ComputeChildren",
     "pass across rows": r"::FilterFields|::AdvanceValues",
-    "bounds": r"::AdvanceNeighbours|::BoundChildren",
     "thresholds": r"::Limit(Flat|Steep)Fields|::AdvanceSlopes",
-    "pass across planes": r"itk::\w+::ComputeChildren",
+    "pass across planes": r"itk::\w+::ComputeRow",
     "sweep": r"::AdvanceFlatFields|::AdvanceSteepFields|::AdvancePlane|SubdivisionKernel<",
     "tiles": r"NonOscillatorySubdivisionImageFilter",
 }

@@ -316,9 +316,12 @@ ComputeRow(const SubdivisionSweep<T> & s, const std::ptrdiff_t row, const int ro
       }
     }
   }
-  for (int age = 0; age < planes && s.Scheme == Scheme::BoundedLinear; ++age)
+  if (s.Scheme == Scheme::BoundedLinear)
   {
-    FindBounds(s, offset, age);
+    for (int age = 0; age < planes; ++age)
+    {
+      FindBounds(s, offset, age);
+    }
   }
 }
 
@@ -329,7 +332,7 @@ ComputeChildren(const SubdivisionSweep<T> & s, const int age, const int sweepChi
 {
   using Scheme = NonOscillatorySubdivisionImageFilterEnums::Scheme;
   const auto &                row = s.SweepChildren[age][sweepChild];
-  const AlongLanes<T>         values{ row[0] };
+  const AlongLanes<T>         values{ row[NoAxisInPlane] };
   const ChildrenAlongLanes<T> children{ s.Children };
   if (s.Scheme == Scheme::NonOscillatory)
   {

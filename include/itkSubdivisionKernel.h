@@ -78,7 +78,7 @@ public:
   using SchemeEnum = NonOscillatorySubdivisionImageFilterEnums::Scheme;
 
   /** Planes whose children are best computed together, since they share most of what they read. */
-  static constexpr unsigned int PlanesPerStep = 8;
+  static constexpr unsigned int PlanesPerStep = 6;
 
   /** A kernel for tiles of at most the given size in voxels.
    * \param scheme the scheme of all tiles

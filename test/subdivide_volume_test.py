@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs SubdivideVolume as a user does; the environment variable SUBDIVIDE_VOLUME holds the path of the program."""
 
+import array
 import filecmp
 import math
 import os
@@ -170,6 +171,27 @@ class Streaming(ProgramTest):
             self.assertEqual(Meta(self.path("out.mhd")).fields["ElementDataFile"], "out.raw")
             again = self.meta("out.mha", "again.mha").data
             self.assertEqual(self.meta("out.mhd", "again.mhd", "--streams", 5).data, again)
+
+    def test_files_of_the_same_names_in_the_current_folder_are_left_alone(self):
+        write_meta(self.path("whole.mha"), [7, 11, 13], "h", noise(1001))
+        whole = self.meta("whole.mha", "expected.mha").data
+        header = meta_header([7, 11, 13], "h", data_file="scan.raw")
+        voxels = array.array("h", noise(1001)).tobytes()
+        decoys = {"scan.mhd": header, "scan.raw": voxels, "scan.zraw": b"decoy", "other.raw": b"decoy", "probe": b"decoy"}
+        for name, content in decoys.items():
+            with open(self.path(name), "wb") as file:
+                file.write(content)
+        os.mkdir(self.path("doubled"))
+        for output in ("doubled/scan.mhd", "doubled/scan.mhd", "doubled/other.mhd"):
+            for options in (["--streams", 20], ["--streams", 1], ["--compress"]):
+                result = self.run_program("scan.mhd", output, *options, cwd=self.folder)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(Meta(self.path(output)).data, whole)
+                for name, content in decoys.items():
+                    with open(self.path(name), "rb") as file:
+                        self.assertEqual(file.read(), content, name)
+        self.assertEqual(self.run_program("scan.mhd", "scan.mhd", "--streams", 20, cwd=self.folder).returncode, 0)
+        self.assertEqual(Meta(self.path("scan.mhd")).data, whole)
 
     def test_an_output_in_place_of_its_input(self):
         for ending in ("mha", "mhd"):

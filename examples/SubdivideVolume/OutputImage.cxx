@@ -108,6 +108,29 @@ Describe(itk::ImageIOBase & imageIO, const ImageGrid & grid, PixelComponent comp
   imageIO.SetMetaDataDictionary(dictionary);
 }
 
+/** Makes a folder the current one as long as this lives. MetaIO looks for a data file's name in the current folder before
+ * it looks beside the header: any other folder could hold somebody else's file of that name, which would be written. */
+class CurrentFolder
+{
+public:
+  explicit CurrentFolder(const fs::path & folder)
+    : m_Before(fs::current_path())
+  {
+    fs::current_path(folder);
+  }
+  ~CurrentFolder()
+  {
+    std::error_code error;
+    fs::current_path(m_Before, error);
+  }
+  CurrentFolder(const CurrentFolder &) = delete;
+  CurrentFolder &
+  operator=(const CurrentFolder &) = delete;
+
+private:
+  fs::path m_Before;
+};
+
 /** A reader for what was written, its header read and compared with what was to be written. */
 itk::ImageIOBase::Pointer
 OpenWrittenFile(const std::string & file, itk::ImageIOBase::SizeType numberOfVoxels)
@@ -204,6 +227,7 @@ OutputImage::Try(const ImageGrid & grid, PixelComponent component, const InputIm
   const std::vector<char> values = MakeTestValues(GetNumberOfVoxels(small.Size) * input.NumberOfComponents, component);
   const std::string       file = m_Folder->GetFileName().string();
   bool                    isLossless = false;
+  const CurrentFolder     folder(m_Folder->GetFileName().parent_path());
   try
   {
     ImageIOPointer imageIO = this->MakeImageIO();
@@ -247,6 +271,7 @@ OutputImage::Write(const itk::ImageIORegion & region, const void * values)
   const fs::path file = m_Folder->GetFileName();
   const bool     isFirst = !fs::exists(file);
   m_ImageIO->SetIORegion(region);
+  const CurrentFolder folder(file.parent_path());
   try
   {
     m_ImageIO->Write(values);
@@ -288,6 +313,7 @@ OutputImage::Commit()
 {
   if (this->CanStream())
   {
+    const CurrentFolder folder(m_Folder->GetFileName().parent_path());
     try
     {
       m_Folder->CheckThatAllWasWritten();

@@ -7,7 +7,8 @@ include(GenerateExportHeader)
 include(CMakePackageConfigHelpers)
 
 option(BUILD_SHARED_LIBS "Build shared libraries." ON)
-option(NonOscillatorySubdivision_BUILD_EXAMPLES "Build the command line programs and the examples." ON)
+option(NonOscillatorySubdivision_BUILD_APPS "Build the command line programs." ON)
+option(NonOscillatorySubdivision_BUILD_EXAMPLES "Build the examples." ON)
 option(NonOscillatorySubdivision_BUILD_BENCHMARK "Build the speed comparison (needs Google Benchmark)." OFF)
 option(NonOscillatorySubdivision_WARNINGS_AS_ERRORS "Treat compiler warnings as errors." OFF)
 
@@ -80,6 +81,9 @@ install(FILES
   DESTINATION "${package_dir}"
 )
 
+if(NonOscillatorySubdivision_BUILD_APPS)
+  add_subdirectory(apps)
+endif()
 if(NonOscillatorySubdivision_BUILD_EXAMPLES)
   add_subdirectory(examples)
 endif()

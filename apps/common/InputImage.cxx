@@ -4,7 +4,7 @@
 
 #include "itkImageFileReader.h" // registers the formats
 
-#ifdef SUBDIVIDE_VOLUME_HAS_GDCM
+#ifdef APPS_HAVE_GDCM
 #  include "itkGDCMImageIO.h"
 #  include "itkGDCMSeriesFileNames.h"
 #endif
@@ -24,7 +24,7 @@ Fail(const std::string & path, const std::string & reason)
   throw std::runtime_error("cannot read " + path + ": " + reason);
 }
 
-#ifdef SUBDIVIDE_VOLUME_HAS_GDCM
+#ifdef APPS_HAVE_GDCM
 std::string
 Join(const std::vector<std::string> & words)
 {

@@ -15,8 +15,8 @@
 struct ImageGrid
 {
   std::vector<std::uint64_t>       Size;
-  std::vector<double>              Spacing; // mm where the file says so, else its unit
-  std::vector<double>              Origin;  // of the centre of the first voxel; LPS where the file says a space
+  std::vector<double>              Spacing;    // mm where the file says so, else its unit
+  std::vector<double>              Origin;     // of the centre of the first voxel; LPS where the file says a space
   std::vector<std::vector<double>> Directions; // of each axis, a unit vector
 };
 

@@ -22,8 +22,8 @@ class VolumeWriter
 public:
   virtual ~VolumeWriter() = default;
 
-  /** Whether parts are written as they come, each a box that continues the one before (complete planes, or complete rows
-   * of one plane); else all of the image must come in one Write(). */
+  /** Whether parts are written as they come, each a box that continues the one before (complete planes, or complete
+   * rows of one plane); else all of the image must come in one Write(). */
   virtual bool
   WritesParts() const = 0;
 

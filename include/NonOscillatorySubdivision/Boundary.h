@@ -52,8 +52,8 @@ public:
   std::int64_t
   MapIndex(std::int64_t index, std::int64_t size) const;
 
-  /** The part of an array's interval \c whole that is read for the elements of \c stencil, some of which may lie outside.
-   * For Custom, all of \c whole if any lies outside. Never empty. */
+  /** The part of an array's interval \c whole that is read for the elements of \c stencil, some of which may lie
+   * outside. For Custom, all of \c whole if any lies outside. Never empty. */
   Interval
   GetRequest(const Interval & stencil, const Interval & whole) const;
 

@@ -71,7 +71,8 @@ template <typename T>
 constexpr ElementType
 ElementTypeOf()
 {
-  static_assert(std::is_arithmetic<T>::value && sizeof(T) <= 8, "elements are integers of 8 to 64 bits, float or double");
+  static_assert(std::is_arithmetic<T>::value && sizeof(T) <= 8,
+                "elements are integers of 8 to 64 bits, float or double");
   if constexpr (std::is_floating_point<T>::value)
   {
     return sizeof(T) == sizeof(float) ? ElementType::Float : ElementType::Double;
@@ -101,7 +102,7 @@ NeedsDouble(const ElementType type)
 constexpr const char *
 GetName(const ElementType type)
 {
-  constexpr const char * names[] = { "uint8",  "int8",  "uint16", "int16", "uint32",
+  constexpr const char * names[] = { "uint8", "int8",   "uint16", "int16", "uint32",
                                      "int32", "uint64", "int64",  "float", "double" };
   return names[static_cast<std::size_t>(type)];
 }

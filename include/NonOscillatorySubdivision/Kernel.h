@@ -16,8 +16,8 @@ namespace itk
 namespace Subdivision
 {
 
-/** \brief A kernel's input: voxels -R ... width + R - 1 of row y of plane z (R: the scheme's radius), all counted from the
- * tile's first voxel. y and z reach R beyond the tile along axes that are subdivided; x does so only if it is. */
+/** \brief A kernel's input: voxels -R ... width + R - 1 of row y of plane z (R: the scheme's radius), all counted from
+ * the tile's first voxel. y and z reach R beyond the tile along axes that are subdivided; x does so only if it is. */
 template <typename TReal>
 class RowSource
 {
@@ -39,8 +39,8 @@ public:
   std::size_t
   GetSize() const;
 
-  /** In order, side by side. Integers round to nearest, ties to even, and saturate; NaN becomes 0. Real values are neither
-   * rounded nor clamped, but double becomes float where that is the type. */
+  /** In order, side by side. Integers round to nearest, ties to even, and saturate; NaN becomes 0. Real values are
+   * neither rounded nor clamped, but double becomes float where that is the type. */
   void
   CopyTo(ElementType type, void * elements) const;
 
@@ -80,10 +80,10 @@ struct Axes
 
 /** \brief Subdivides a tile of real values along one, two or three axes: asks for rows, hands over rows of children.
  *
- * x runs along the rows, y from row to row of a plane, z from plane to plane. An axis that is not subdivided is carried:
- * its rows, or positions in a row, are images of their own, and come back as they are many. What lies outside the image
- * is the source's to supply; the kernel treats it as data. The children of a voxel are the same bytes wherever the voxel
- * lies in its tile.
+ * x runs along the rows, y from row to row of a plane, z from plane to plane. An axis that is not subdivided is
+ * carried: its rows, or positions in a row, are images of their own, and come back as they are many. What lies outside
+ * the image is the source's to supply; the kernel treats it as data. The children of a voxel are the same bytes
+ * wherever the voxel lies in its tile.
  *
  * The real type is float or double. A kernel is used by one thread at a time and allocates in its constructor only.
  * After an exception from a source or a sink it can be used again. */

@@ -16,8 +16,8 @@ namespace Subdivision
 {
 
 /** Computes all tiles of a run (a Subdivider, or what has its two functions) with that many threads, the caller's among
- * them; returns when all are done. The first exception of any thread keeps the others from beginning another tile and is
- * passed on. For callers that bring no threads of their own: the library itself has none. */
+ * them; returns when all are done. The first exception of any thread keeps the others from beginning another tile and
+ * is passed on. For callers that bring no threads of their own: the library itself has none. */
 template <typename TRun, typename TMonitor>
 void
 RunTiles(TRun & run, const unsigned int threads, TMonitor & monitor)

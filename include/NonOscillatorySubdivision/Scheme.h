@@ -19,8 +19,8 @@ namespace Subdivision
 /** Children of a voxel along each subdivided axis. */
 inline constexpr int Children = 2;
 
-/** Output index m lies at the continuous input index m / 2 + FirstChildPosition, so m covers half of voxel floor(m / 2),
- * its parent. The lower child is m = 2 j, at j - 1/4; the upper child is m = 2 j + 1, at j + 1/4. */
+/** Output index m lies at the continuous input index m / 2 + FirstChildPosition, so m covers half of voxel floor(m /
+ * 2), its parent. The lower child is m = 2 j, at j - 1/4; the upper child is m = 2 j + 1, at j + 1/4. */
 inline constexpr double FirstChildPosition = -0.25;
 
 /** Masks are integers over this. */
@@ -97,7 +97,7 @@ inline constexpr Scheme Schemes[] = {
 
 /** The scheme of that name.
  * \throw std::invalid_argument that lists the names, where there is none. */
-NonOscillatorySubdivision_EXPORT const Scheme &
+const NonOscillatorySubdivision_EXPORT Scheme &
 FindScheme(const std::string & name);
 
 /** Tensions are finite; those of the restored scheme are at least 0, those of the others greater than 1, whether the

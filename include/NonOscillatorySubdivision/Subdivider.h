@@ -25,7 +25,7 @@ struct Options
   const Subdivision::Scheme * Scheme = nullptr;
   double                      Tension = 2.0;
   /** For each axis whether it is subdivided; three at most. */
-  Flags SubdividedAxes;
+  Flags                 SubdividedAxes;
   Subdivision::Boundary Boundary = Subdivision::Boundary::Nearest();
   /** Null stands for the fastest. */
   const Subdivision::Target * Target = nullptr;
@@ -62,10 +62,11 @@ private:
   std::unique_ptr<Implementation> m_Implementation;
 };
 
-/** \brief A run from array to array. Computes in double if either element type NeedsDouble(), else in float; where no axis
- * is subdivided and the types are the same, elements are copied exactly.
+/** \brief A run from array to array. Computes in double if either element type NeedsDouble(), else in float; where no
+ * axis is subdivided and the types are the same, elements are copied exactly.
  *
- * The bytes of an element depend on the input and the options alone: not on the box asked for, the tiles or the threads. */
+ * The bytes of an element depend on the input and the options alone: not on the box asked for, the tiles or the
+ * threads. */
 class NonOscillatorySubdivision_EXPORT Subdivider
 {
 public:

@@ -16,8 +16,8 @@ namespace Subdivision
 
 struct TargetTable;
 
-/** \brief An instruction set that kernels are compiled for and that this processor has. Results of two targets may differ
- * in the last place. */
+/** \brief An instruction set that kernels are compiled for and that this processor has. Results of two targets may
+ * differ in the last place. */
 class NonOscillatorySubdivision_EXPORT Target
 {
 public:

@@ -17,8 +17,8 @@ namespace Subdivision
 using Sizes = std::vector<std::uint64_t>;
 using Flags = std::vector<bool>;
 
-/** \brief The tiles of a run: disjoint boxes of parents that cover all of them, small enough for the kernel's caches and
- * large enough to keep the halo small, balanced over the threads. */
+/** \brief The tiles of a run: disjoint boxes of parents that cover all of them, small enough for the kernel's caches
+ * and large enough to keep the halo small, balanced over the threads. */
 class NonOscillatorySubdivision_EXPORT Tiling
 {
 public:

@@ -2,20 +2,15 @@
 #ifndef itkNonOscillatorySubdivisionImageFilter_h
 #define itkNonOscillatorySubdivisionImageFilter_h
 
+#include "NonOscillatorySubdivision/Subdivider.h"
 #include "itkNonOscillatorySubdivisionImageFilterEnums.h"
-#include "itkSubdivisionKernel.h"
-#include "itkSubdivisionPixelTraits.h"
-#include "itkSubdivisionTileReader.h"
-#include "itkSubdivisionTileWriter.h"
+#include "itkSubdivisionImageView.h"
 
 #include "itkFixedArray.h"
 #include "itkImageToImageFilter.h"
-#include "itkZeroFluxNeumannBoundaryCondition.h"
 
-#include <memory>
-#include <mutex>
 #include <string>
-#include <vector>
+#include <type_traits>
 
 namespace itk
 {
@@ -41,13 +36,19 @@ namespace itk
  *   p-2 ... p+3.
  * - BoundedLinear: the linear result, clamped to the range of the pixels next to the child's own.
  * - BSpline: the B-spline alone, a convex combination of its stencil.
+ * - Restored: the B-spline of sharpened values, clamped to the range of the pixels next to the child's own, plus what
+ *   the linear scheme differs by, as far as Tension allows. With a tension of 0 it never leaves that range. Reads
+ *   p-5 ... p+5.
  *
  * Averages are kept where the data is smooth, not exactly: the mean of the two children of a pixel along one axis is
  * f + 5/1024 times the sixth difference of f with the linear scheme, and moves at edges with the non-oscillatory one.
  *
- * Pixels are scalars or of several components, each of which is subdivided on its own. The computation is in
- * double if either pixel's components are double or 32- or 64-bit integers, otherwise in float. Integer output is
- * rounded to nearest, ties to even, and saturates; NaN becomes 0 there. Real output is neither rounded nor clamped.
+ * Images are itk::Image or itk::VectorImage. Pixels are scalars or of several components, each of which is subdivided
+ * on its own, the parts of a complex number among them; components are integers of 8 to 64 bits, float or double, as
+ * their size says. The computation is in double if either pixel's components are double or 32- or 64-bit integers,
+ * otherwise in float. Integer output is rounded to nearest, ties to even, and saturates; NaN becomes 0 there. Real
+ * output is neither rounded nor clamped. Where no axis is subdivided and input and output have the same type of pixel,
+ * pixels are copied exactly.
  *
  * Where the input has a pixel that is not finite, exactly the children whose six-point stencil reads it are not finite;
  * those that only depend on it through a limit are finite.
@@ -56,8 +57,11 @@ namespace itk
  * the image was streamed. The filter streams: it requests the exact stencil of what it is asked for, as the boundary
  * condition needs it. Between updates it keeps what it computes in, some megabytes for each thread.
  *
+ * Progress is reported by the thread that updates the filter; an abort, by an observer or another thread, keeps all
+ * threads from going on.
+ *
  * \throw itk::ExceptionObject on update, when an option is out of its range (see its setter), the input is missing or
- * empty, or the pixels of input and output differ in their number of components.
+ * empty, the pixels of input and output differ in their number of components, or doubled indices do not fit 64 bits.
  *
  * \ingroup NonOscillatorySubdivision
  */
@@ -75,6 +79,16 @@ public:
   itkNewMacro(Self);
   itkTypeMacro(NonOscillatorySubdivisionImageFilter, ImageToImageFilter);
 
+  static_assert(Detail::IsBufferedGrid<TInputImage> && Detail::IsBufferedGrid<TOutputImage>,
+                "Images to be subdivided are itk::Image or itk::VectorImage: no adaptors, label maps or special "
+                "coordinates.");
+  static_assert(Detail::HasElements<TInputImage> && Detail::HasElements<TOutputImage>,
+                "Pixels to be subdivided are, or consist of, integers of 8 to 64 bits, float or double: no matrices, "
+                "long double or pixels of variable length outside itk::VectorImage.");
+  static_assert(static_cast<unsigned int>(TInputImage::ImageDimension) ==
+                  static_cast<unsigned int>(TOutputImage::ImageDimension),
+                "Images before and after subdivision have the same dimension.");
+
   static constexpr unsigned int Dimension = TInputImage::ImageDimension;
 
   /** At most this many axes can be subdivided in one run. */
@@ -86,7 +100,11 @@ public:
   using OutputRegionType = typename OutputImageType::RegionType;
 
   /** The type of the computation, float or double. */
-  using RealType = SubdivisionRealType<InputImageType, OutputImageType>;
+  using RealType = typename std::conditional<
+    Subdivision::NeedsDouble(Subdivision::ElementTypeOf<Detail::SubdivisionComponentType<InputImageType>>()) ||
+      Subdivision::NeedsDouble(Subdivision::ElementTypeOf<Detail::SubdivisionComponentType<OutputImageType>>()),
+    double,
+    float>::type;
 
   using SchemeEnum = NonOscillatorySubdivisionImageFilterEnums::Scheme;
   using AxesType = FixedArray<bool, Dimension>;
@@ -95,23 +113,37 @@ public:
   using DefaultBoundaryConditionType = ZeroFluxNeumannBoundaryCondition<InputImageType, InputImageType>;
 
   /** The scheme. Default: NonOscillatory.
+   * \throw ExceptionObject if there is no such scheme
    * @{ */
-  itkSetEnumMacro(Scheme, SchemeEnum);
+  virtual void
+  SetScheme(SchemeEnum scheme);
   itkGetEnumMacro(Scheme, SchemeEnum);
   /** @} */
 
-  /** The tension of the non-oscillatory scheme, without a unit: finite and greater than 1, which is checked when the
-   * filter runs. The larger, the closer to the linear scheme. Default: 2.
+  /** The scheme by its name: nonoscillatory, linear, bounded, bspline or restored.
+   * \throw ExceptionObject that lists the names, if it is none of them */
+  virtual void
+  SetSchemeByName(const std::string & name);
+
+  /** The tension of the non-oscillatory and the restored scheme, without a unit: finite and greater than 1, or at
+   * least 0 for the restored scheme, which is checked when the filter runs. The larger, the closer to the linear
+   * scheme. Default: 2.
    * @{ */
   itkSetMacro(Tension, double);
   itkGetConstMacro(Tension, double);
   /** @} */
 
   /** What supplies the pixels outside the image. The filter does not own it: it must live as long as the filter uses
-   * it, and a change of it is seen only after Modified(). Default: zero flux, the nearest pixel.
+   * it, and a change of it is seen only after Modified(). It is asked by several threads at once, unless it is one of
+   * ITK's three or MirrorBoundaryCondition, but none derived from them. The constant of a ConstantBoundaryCondition
+   * must have as many components as a pixel. Null stands for the default, which Get returns then: zero flux, the
+   * nearest pixel.
    * @{ */
-  itkSetMacro(BoundaryCondition, BoundaryConditionPointerType);
+  virtual void
+  SetBoundaryCondition(BoundaryConditionPointerType boundaryCondition);
   itkGetConstMacro(BoundaryCondition, BoundaryConditionPointerType);
+  virtual void
+  SetBoundaryConditionToDefault();
   /** @} */
 
   /** Which axes are subdivided, three at most, which is checked when the filter runs. An axis that is not keeps its
@@ -121,13 +153,19 @@ public:
   itkGetConstReferenceMacro(SubdividedAxes, AxesType);
   /** @} */
 
-#ifdef ITK_USE_CONCEPT_CHECKING
-  itkConceptMacro(SameDimensionCheck, (Concept::SameDimension<Dimension, OutputImageType::ImageDimension>));
-  itkConceptMacro(InputComponentIsArithmeticCheck,
-                  (Concept::HasNumericTraits<SubdivisionComponentType<InputImageType>>));
-  itkConceptMacro(OutputComponentIsArithmeticCheck,
-                  (Concept::HasNumericTraits<SubdivisionComponentType<OutputImageType>>));
-#endif
+  /** Whether one of the axes is subdivided.
+   * \throw ExceptionObject if there is no such axis */
+  virtual void
+  SetSubdividedAxis(unsigned int axis, bool isSubdivided);
+
+  /** The name of the instruction set to compute with, one of itk::Subdivision::Target::GetNames(). Results of two of
+   * them may differ in the last place. Default: the empty name, which stands for the fastest.
+   * \throw ExceptionObject that lists the names, if this processor has no such instruction set
+   * @{ */
+  virtual void
+  SetTarget(const std::string & target);
+  itkGetConstReferenceMacro(Target, std::string);
+  /** @} */
 
 protected:
   NonOscillatorySubdivisionImageFilter();
@@ -148,115 +186,40 @@ protected:
   void
   GenerateInputRequestedRegion() override;
 
-  /** Allocates, on huge pages where the system has them. */
-  void
-  AllocateOutputs() override;
-
-  /** Splits the requested region into tiles that keep the recomputed halo small and hands them to the threads. */
+  /** Hands the tiles of the requested region to the threads. */
   void
   GenerateData() override;
 
-  /** Computes one tile. */
-  void
-  DynamicThreadedGenerateData(const OutputRegionType & outputRegion) override;
-
 private:
-  using KernelType = SubdivisionKernel<RealType>;
-  using KernelPointer = std::unique_ptr<KernelType>;
-  using AxisListType = std::vector<unsigned int>;
-  using IndexType = typename InputRegionType::IndexType;
-  using SizeType = typename InputRegionType::SizeType;
-  using ReaderType = SubdivisionTileReader<InputImageType, RealType>;
-  using WriterType = SubdivisionTileWriter<OutputImageType, RealType>;
+  /** The axes as those of an array whose first axis is that of the components. */
+  Subdivision::Flags
+  GetFlags() const;
 
-  /** The subdivided axes, in order. */
-  AxisListType
-  GetAxes() const;
+  /** What to compute, but for the boundary. */
+  Subdivision::Options
+  GetOptions() const;
 
-  /** The input pixels that have children in an output region. */
-  InputRegionType
-  ComputeParents(const OutputRegionType & outputRegion) const;
+  const Subdivision::Scheme &
+  GetParts() const
+  {
+    return Subdivision::Schemes[static_cast<std::size_t>(m_Scheme)];
+  }
 
-  /** The input pixels that the children in an output region depend on, those outside the image among them. */
+  /** The input pixels, those outside the image among them, that a region of the output depends on. */
   InputRegionType
   ComputeStencil(const OutputRegionType & outputRegion) const;
 
-  /** The output pixels, within the requested region, of the children of the given parents. */
-  OutputRegionType
-  ComputeChildren(const InputRegionType & parents) const;
-
-  /** The size of the tiles that the parents in the requested region are split into. */
-  SizeType
-  ComputeTileSize(const InputRegionType & parents) const;
-
-  /** Of tile sizes up to the largest one, parts of it along the rows and the sweep, the one with which the threads are
-   * done first: with little halo, and none of them idle at the end. */
-  SizeType
-  BalanceTileSize(const SizeType & parents, const SizeType & largest) const;
-
-  static SizeValueType
-  DivideUp(const SizeValueType size, const SizeValueType part)
-  {
-    return (size + part - 1) / part;
-  }
-
-  /** How many parts there are along each axis. */
-  static SizeType
-  DivideUp(const SizeType & size, const SizeType & part);
-
-  /** The position, along each axis, of an element of an array of the given size. */
-  static SizeType
-  Unravel(SizeValueType number, const SizeType & size);
-
-  /** What a kernel is made for. */
-  struct KernelSettings
-  {
-    std::string  Target;
-    SchemeEnum   Scheme{};
-    double       Tension{};
-    unsigned int NumberOfAxes{};
-    std::size_t  Width{};
-    std::size_t  Height{};
-
-    bool
-    operator==(const KernelSettings & other) const
-    {
-      return Target == other.Target && Scheme == other.Scheme && Tension == other.Tension &&
-             NumberOfAxes == other.NumberOfAxes && Width == other.Width && Height == other.Height;
-    }
-  };
-
-  /** Forgets kernels that were made for something else than tiles of the given size. */
-  void
-  PrepareKernels(const SizeType & tileSize);
-
-  KernelPointer
-  BorrowKernel();
-
-  void
-  ReturnKernel(KernelPointer kernel);
-
-  /** Subdivides what reader and writer are set to; reports the number of pixels that were written. */
-  template <typename TReport>
-  void
-  SweepTile(KernelType &                kernel,
-            const ReaderType &          reader,
-            WriterType &                writer,
-            const SubdivisionTileAxes & axes,
-            const InputRegionType &     parents,
-            const TReport &             report) const;
+  /** The part of the input that a region of the output, which is not empty, depends on. */
+  InputRegionType
+  ComputeRequest(const OutputRegionType & outputRegion) const;
 
   DefaultBoundaryConditionType m_DefaultBoundaryCondition;
   BoundaryConditionPointerType m_BoundaryCondition{ &m_DefaultBoundaryCondition };
   SchemeEnum                   m_Scheme{ SchemeEnum::NonOscillatory };
   double                       m_Tension{ 2.0 };
   AxesType                     m_SubdividedAxes;
-
-  /** Kernels that no thread uses at the moment: as many as threads once did, so that each allocates once, even if the
-   * output is streamed. */
-  std::vector<KernelPointer> m_IdleKernels;
-  KernelSettings             m_KernelSettings;
-  std::mutex                 m_IdleKernelsMutex;
+  std::string                  m_Target;
+  Subdivision::Workspace       m_Workspace;
 };
 
 } // namespace itk

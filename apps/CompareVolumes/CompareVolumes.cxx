@@ -8,10 +8,8 @@
 
 #include "itkMacro.h"
 
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <new>
 
 namespace
@@ -64,16 +62,6 @@ CheckGrids(const ImageGrid & reference, const ImageGrid & test, const bool ignor
   }
 }
 
-/** \throw std::runtime_error if not all of it could be written */
-void
-Print(const std::string & text)
-{
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-  {
-    throw std::runtime_error("cannot write the result: " + std::string(std::strerror(errno)));
-  }
-}
-
 void
 Run(const Options & options)
 {
@@ -81,7 +69,7 @@ Run(const Options & options)
   const auto test = Open(options.TestPath, options.Test, options.Quiet);
   CheckGrids(reference->GetDescription().Grid, test->GetDescription().Grid, options.IgnoreGeometry);
   const Figures figures = Compare(*reference, *test, options.How);
-  Print(options.Json ? ToJson(figures) : ToText(figures));
+  PrintResult(options.Json ? ToJson(figures) : ToText(figures));
 }
 
 std::string

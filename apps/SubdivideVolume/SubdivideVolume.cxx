@@ -2,7 +2,7 @@
 // Doubles the resolution of an image. See SubdivideVolume --help.
 
 #include "CommandLine.h"
-#include "Formats.h"
+#include "FormatTable.h"
 #include "Interrupt.h"
 #include "LevelChain.h"
 #include "LibraryMessages.h"
@@ -88,7 +88,8 @@ Inform(const Options & options)
   const auto         writer = options.Output.empty() ? nullptr : Create(options, threads, warnings);
   const LevelChain   chain(reader->GetDescription(), options, threads);
   const Plan         plan = MakePlan(options, chain, *reader, writer.get(), threads);
-  Print(Forecast{ options, reader->GetDescription(), chain.GetOutput(), plan, warnings.GetAll(), threads });
+  PrintResult(
+    Describe(Forecast{ options, reader->GetDescription(), chain.GetOutput(), plan, warnings.GetAll(), threads }));
 }
 
 void
@@ -107,18 +108,23 @@ Subdivide(const Options & options)
   Pipeline(*reader, chain, *writer, counter, plan).Run(progress);
   writer->Commit();
   progress.Finish();
-  if (!options.Quiet || options.Json)
+  const std::string summary = Describe(Summary{ options,
+                                                reader->GetDescription(),
+                                                chain.GetOutput(),
+                                                counter.GetInput(),
+                                                counter.GetOutput(),
+                                                counter.GetLosses(),
+                                                warnings.GetAll(),
+                                                plan.Pieces.size(),
+                                                threads,
+                                                progress.GetSeconds() });
+  if (options.Json)
   {
-    Print(Summary{ options,
-                   reader->GetDescription(),
-                   chain.GetOutput(),
-                   counter.GetInput(),
-                   counter.GetOutput(),
-                   counter.GetLosses(),
-                   warnings.GetAll(),
-                   plan.Pieces.size(),
-                   threads,
-                   progress.GetSeconds() });
+    PrintResult(summary);
+  }
+  else if (!options.Quiet)
+  {
+    std::fputs(summary.c_str(), stdout); // the output is complete, whether or not anybody hears of it
   }
 }
 
@@ -134,9 +140,9 @@ Perform(const Options & options)
     case Task::ListSeries:
       return PrintSeries(options.Input);
     case Task::ListFormats:
-      return PrintFormats();
+      return PrintResult(DescribeFormats(options.Json));
     case Task::DescribeItself:
-      std::fputs(GetSlicerDescription().c_str(), stdout);
+      return PrintResult(GetSlicerDescription());
   }
 }
 } // namespace

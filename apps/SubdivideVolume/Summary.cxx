@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cinttypes>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -19,12 +18,12 @@ constexpr double Megabyte = 1e6;
 
 template <typename T>
 std::string
-Join(const std::vector<T> & values)
+Join(const std::vector<T> & values, const char * const separator = " x ")
 {
   std::ostringstream text;
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    text << (i > 0 ? " x " : "") << values[i];
+    text << (i > 0 ? separator : "") << values[i];
   }
   return text.str();
 }
@@ -106,24 +105,41 @@ ToJson(const Options & options)
   return object;
 }
 
-void
-PrintJson(const ordered_json & object)
+std::string
+ToText(const ordered_json & object)
 {
   // Names of files need not be UTF-8, but JSON must.
-  std::printf("%s\n", object.dump(2, ' ', false, ordered_json::error_handler_t::replace).c_str());
+  return object.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-void
-PrintWarnings(const std::vector<std::string> & warnings)
+std::string
+DescribeWarnings(const std::vector<std::string> & warnings)
 {
+  std::string text;
   for (const std::string & warning : warnings)
   {
-    std::printf("warning  %s\n", warning.c_str());
+    text += "warning " + warning + "\n";
   }
+  return text;
 }
 
-void
-PrintJson(const Summary & summary)
+/** A number with some decimals. */
+std::string
+Format(const double number, const int decimals)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.*f", decimals, number);
+  return text;
+}
+
+std::string
+DescribeNumber(const std::size_t number, const char * what)
+{
+  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
+
+ordered_json
+ToJson(const Summary & summary)
 {
   ordered_json object = ToJson(summary.Options);
   object["input"] = ToJson(summary.Options.Input, summary.Input);
@@ -137,11 +153,11 @@ PrintJson(const Summary & summary)
   object["pieces"] = summary.Pieces;
   object["threads"] = summary.Threads;
   object["seconds"] = summary.Seconds;
-  PrintJson(object);
+  return object;
 }
 
-void
-PrintJson(const Forecast & forecast)
+ordered_json
+ToJson(const Forecast & forecast)
 {
   ordered_json object = ToJson(forecast.Options);
   object["input"] = ToJson(forecast.Options.Input, forecast.Input);
@@ -154,57 +170,41 @@ PrintJson(const Forecast & forecast)
   object["pieces"] = forecast.Plan.Pieces.size();
   object["threads"] = forecast.Threads;
   object["warnings"] = forecast.Warnings;
-  PrintJson(object);
+  return object;
 }
 } // namespace
 
-void
-Print(const Summary & summary)
+std::string
+Describe(const Summary & summary)
 {
   if (summary.Options.Json)
   {
-    PrintJson(summary);
-    return;
+    return ToText(ToJson(summary));
   }
   const Statistics & before = summary.InputStatistics;
   const Statistics & after = summary.OutputStatistics;
-  const std::string  input = DescribeGrid(summary.Input) + ", " + DescribeRange(before) +
-                            DescribeCount(before.NotANumber, "NaN") + DescribeCount(before.Infinite, "infinite");
-  const std::string output = DescribeGrid(summary.Output) + ", " + DescribeRange(after) +
-                             DescribeCount(after.NotANumber, "NaN") + DescribeCount(after.Infinite, "infinite") +
-                             DescribeCount(summary.Losses.NotANumber, "NaN became 0") +
-                             DescribeCount(summary.Losses.Clamped, "clamped");
-  std::printf("input   %s\noutput  %s\n", input.c_str(), output.c_str());
-  PrintWarnings(summary.Warnings);
-  std::printf("time    %.2f s, %zu piece%s\n", summary.Seconds, summary.Pieces, summary.Pieces == 1 ? "" : "s");
+  return "input   " + DescribeGrid(summary.Input) + ", " + DescribeRange(before) +
+         DescribeCount(before.NotANumber, "NaN") + DescribeCount(before.Infinite, "infinite") + "\noutput  " +
+         DescribeGrid(summary.Output) + ", " + DescribeRange(after) + DescribeCount(after.NotANumber, "NaN") +
+         DescribeCount(after.Infinite, "infinite") + DescribeCount(summary.Losses.NotANumber, "NaN became 0") +
+         DescribeCount(summary.Losses.Clamped, "clamped") + "\n" + DescribeWarnings(summary.Warnings) + "time    " +
+         Format(summary.Seconds, 2) + " s, " + DescribeNumber(summary.Pieces, "piece") + "\n";
 }
 
-void
-Print(const Forecast & forecast)
+std::string
+Describe(const Forecast & forecast)
 {
   if (forecast.Options.Json)
   {
-    PrintJson(forecast);
-    return;
+    return ToText(ToJson(forecast));
   }
-  const double bytes = static_cast<double>(GetBytes(forecast.Output));
-  std::printf("input   %s, origin %s, %s\n",
-              DescribeGrid(forecast.Input).c_str(),
-              Join(forecast.Input.Grid.Origin).c_str(),
-              forecast.Input.Format.c_str());
-  std::printf(
-    "output  %s, origin %s\n", DescribeGrid(forecast.Output).c_str(), Join(forecast.Output.Grid.Origin).c_str());
-  std::printf("disk    %.1f MB uncompressed", bytes / Megabyte);
-  if (const auto space = GetFreeSpace(forecast.Options.Output))
-  {
-    std::printf(", %.1f MB free", static_cast<double>(*space) / Megabyte);
-  }
-  const std::size_t pieces = forecast.Plan.Pieces.size();
-  std::printf("\nmemory  about %.0f MB with %u thread%s, %zu piece%s\n",
-              static_cast<double>(forecast.Plan.PeakBytes) / Megabyte,
-              forecast.Threads,
-              forecast.Threads == 1 ? "" : "s",
-              pieces,
-              pieces == 1 ? "" : "s");
-  PrintWarnings(forecast.Warnings);
+  const auto space = GetFreeSpace(forecast.Options.Output);
+  return "input   " + DescribeGrid(forecast.Input) + ", origin " + Join(forecast.Input.Grid.Origin, " ") + ", " +
+         forecast.Input.Format + "\noutput  " + DescribeGrid(forecast.Output) + ", origin " +
+         Join(forecast.Output.Grid.Origin, " ") + "\ndisk    " +
+         Format(static_cast<double>(GetBytes(forecast.Output)) / Megabyte, 1) + " MB uncompressed" +
+         (space ? ", " + Format(static_cast<double>(*space) / Megabyte, 1) + " MB free" : "") + "\nmemory  about " +
+         Format(static_cast<double>(forecast.Plan.PeakBytes) / Megabyte, 0) + " MB with " +
+         DescribeNumber(forecast.Threads, "thread") + ", " + DescribeNumber(forecast.Plan.Pieces.size(), "piece") +
+         "\n" + DescribeWarnings(forecast.Warnings);
 }

@@ -25,9 +25,9 @@ struct Summary
   double                   Seconds = 0.0;
 };
 
-/** Prints it to stdout: in lines, or as an object where the options ask for JSON. */
-void
-Print(const Summary & summary);
+/** In lines, or as an object where the options ask for JSON. */
+std::string
+Describe(const Summary & summary);
 
 /** What a run would do. */
 struct Forecast
@@ -40,7 +40,7 @@ struct Forecast
   unsigned int             Threads = 0;
 };
 
-void
-Print(const Forecast & forecast);
+std::string
+Describe(const Forecast & forecast);
 
 #endif

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 
 namespace
 {
@@ -186,4 +188,13 @@ IsNumber(const std::string & text)
   errno = 0;
   std::strtod(text.c_str(), &end);
   return !text.empty() && *end == '\0' && errno != ERANGE;
+}
+
+void
+PrintResult(const std::string & text)
+{
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+  {
+    throw std::runtime_error("cannot print the result: " + std::string(std::strerror(errno)));
+  }
 }

@@ -56,4 +56,9 @@ ParseBytes(const std::string & text);
 bool
 IsNumber(const std::string & text);
 
+/** Prints what the user asked for to stdout.
+ * \throw std::runtime_error if not all of it could be written */
+void
+PrintResult(const std::string & text);
+
 #endif

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <stdexcept>
 
@@ -26,21 +28,15 @@ Fail(const fs::path & path, const std::string & reason)
   throw std::runtime_error("cannot read " + path.string() + ": " + reason);
 }
 
-/** Tells how far it has read. */
-class HeaderReader : public gdcm::Reader
+/** Bytes of a file from the place on that was read to; nothing if its end was reached. */
+std::optional<std::uint64_t>
+GetBytesLeft(std::istream & file, std::uint64_t size)
 {
-public:
-  /** Bytes of the file from the voxels' attribute on; nothing if the file ends before. */
-  std::optional<std::uint64_t>
-  GetBytesLeft(std::uint64_t fileSize) const
-  {
-    std::istream * const stream = GetStreamPtr();
-    const auto           place = stream->good() ? static_cast<std::streamoff>(stream->tellg()) : -1;
-    return place < 0 || static_cast<std::uint64_t>(place) >= fileSize
-             ? std::nullopt
-             : std::optional<std::uint64_t>(fileSize - static_cast<std::uint64_t>(place));
-  }
-};
+  const std::streamoff place = file.good() ? static_cast<std::streamoff>(file.tellg()) : -1;
+  return place < 0 || static_cast<std::uint64_t>(place) >= size
+           ? std::nullopt
+           : std::optional<std::uint64_t>(size - static_cast<std::uint64_t>(place));
+}
 
 /** Whether the file says that it is DICOM: by the letters behind the preamble, or by its name's ending. */
 bool
@@ -247,10 +243,15 @@ ReadAttributes(const gdcm::DataSet & data)
 std::optional<DicomHeader>
 ReadDicomHeader(const fs::path & path)
 {
-  HeaderReader reader;
-  reader.SetFileName(path.c_str());
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+  {
+    Fail(path, std::strerror(errno));
+  }
+  gdcm::Reader reader;
+  reader.SetStream(file);
   const bool isClaimed = ClaimsToBeDicom(path);
-  if (!reader.CanRead() || !reader.ReadUpToTag(PixelDataTag))
+  if (!reader.CanRead() || !reader.ReadUpToTag(PixelDataTag, { PixelDataTag }))
   {
     if (isClaimed)
     {
@@ -267,12 +268,14 @@ ReadDicomHeader(const fs::path & path)
   {
     DicomHeader header = ReadAttributes(data);
     header.FileName = path;
-    header.IsCompressed = reader.GetFile().GetHeader().GetDataSetTransferSyntax().IsEncapsulated();
-    const auto bytes = reader.GetBytesLeft(fs::file_size(path));
-    const auto needed = header.IsCompressed ? 1 : header.GetFrameBytes() * header.Frames.size();
-    if (!bytes || *bytes < needed)
+    const gdcm::TransferSyntax & syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
+    header.IsCompressed = syntax.IsEncapsulated();
+    header.IsBigEndian = syntax.GetSwapCode() == gdcm::SwapCode::BigEndian;
+    if (syntax != gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian) // its places are not those of the file
     {
-      Fail(path, "the DICOM file is truncated, or has no voxels");
+      const auto bytes = GetBytesLeft(file, fs::file_size(path));
+      const auto needed = header.IsCompressed ? 1 : header.GetFrameBytes() * header.Frames.size();
+      header.IsTruncated = !bytes || *bytes < needed;
     }
     return header;
   }
@@ -289,7 +292,7 @@ ReadDicomMetadata(const fs::path & path)
   gdcm::Reader reader;
   reader.SetFileName(path.c_str());
   std::map<std::string, std::string> metadata;
-  if (!reader.ReadUpToTag(PixelDataTag))
+  if (!reader.ReadUpToTag(PixelDataTag, { PixelDataTag }))
   {
     return metadata;
   }

@@ -39,6 +39,8 @@ struct DicomHeader
   unsigned int          HighBit = 0;
   bool                  IsSigned = false;
   bool                  IsCompressed = false;
+  bool                  IsBigEndian = false;
+  bool                  IsTruncated = false;   // the file ends before its last voxel
   bool                  HasValueTable = false; // a Modality LUT Sequence
 
   std::optional<std::array<double, 2>> PixelSpacing; // mm, along x and y
@@ -54,7 +56,7 @@ struct DicomHeader
 
 /** Reads a file up to its voxels.
  * \return nothing if it is no DICOM file or one without an image, such as a report
- * \throw std::runtime_error if it is damaged */
+ * \throw std::runtime_error if it cannot be read so far */
 std::optional<DicomHeader>
 ReadDicomHeader(const std::filesystem::path & path);
 

@@ -34,17 +34,16 @@ CheckPixmap(const DicomHeader & header, const gdcm::Pixmap & pixmap, std::size_t
 }
 
 /** Red, green and blue side by side, where they stand in planes. */
-template <typename T>
 void
 InterleavePlanes(const DicomHeader & header, std::vector<char> & bytes)
 {
   const std::size_t       pixels = std::size_t{ header.Columns } * header.Rows;
   const std::vector<char> planes = bytes;
-  for (std::size_t frame = 0; frame < header.Frames.size(); ++frame)
+  for (std::size_t start = 0; start < bytes.size(); start += 3 * pixels)
   {
-    const auto * const red = reinterpret_cast<const T *>(planes.data()) + 3 * frame * pixels;
+    const char * const red = planes.data() + start;
     gdcm::ImageChangePlanarConfiguration::RGBPlanesToRGBPixels(
-      reinterpret_cast<T *>(bytes.data()) + 3 * frame * pixels, red, red + pixels, red + 2 * pixels, pixels);
+      bytes.data() + start, red, red + pixels, red + 2 * pixels, pixels);
   }
 }
 
@@ -67,8 +66,7 @@ Decode(const DicomHeader & header)
   }
   if (header.Samples == 3 && pixmap.GetPlanarConfiguration() == 1)
   {
-    header.BitsAllocated == 8 ? InterleavePlanes<std::uint8_t>(header, bytes)
-                              : InterleavePlanes<std::uint16_t>(header, bytes);
+    InterleavePlanes(header, bytes);
   }
   return bytes;
 }
@@ -95,7 +93,7 @@ Arrange(const std::string & path, const DicomSeries & series, const InputOptions
   {
     for (const DicomHeader & header : series.Headers)
     {
-      CheckPixelsAreKnown(header);
+      CheckPixels(header);
     }
     return ArrangeDicomSlices(series, options, warn);
   }

@@ -112,7 +112,7 @@ Refuse(const DicomHeader & header, const std::string & reason)
 } // namespace
 
 void
-CheckPixelsAreKnown(const DicomHeader & header)
+CheckPixels(const DicomHeader & header)
 {
   const std::string & colours = header.Photometric;
   const bool          isGrey = colours == "MONOCHROME1" || colours == "MONOCHROME2";
@@ -126,11 +126,22 @@ CheckPixelsAreKnown(const DicomHeader & header)
   {
     Refuse(header, "holds pixels of " + std::to_string(header.BitsAllocated) + " bits; 8, 16 and 32 are supported");
   }
+  // GDCM would put the bytes of both in a wrong order.
+  if ((header.BitsAllocated > 8 && header.Samples > 1) || (header.BitsAllocated > 16 && header.IsBigEndian))
+  {
+    Refuse(header,
+           std::string("holds ") + (header.Samples > 1 ? "colours" : "big-endian numbers") + " of " +
+             std::to_string(header.BitsAllocated) + " bits, which are not supported");
+  }
   if (header.BitsStored < 1 || header.BitsStored > header.BitsAllocated || header.HighBit + 1 != header.BitsStored)
   {
     Refuse(header,
            "stores " + std::to_string(header.BitsStored) + " bits up to bit " + std::to_string(header.HighBit) +
              " of each pixel, which is not supported");
+  }
+  if (header.IsTruncated)
+  {
+    Refuse(header, "is truncated, or has no voxels");
   }
   for (const DicomFrame & frame : header.Frames)
   {

@@ -7,10 +7,11 @@
 #include <cstddef>
 #include <vector>
 
-/** Refuses slices whose pixels cannot be given as they are meant: palettes, luminance and chrominance, single bits.
+/** Refuses files whose pixels are not all there or cannot be given as they are meant: palettes, luminance and
+ * chrominance, single bits.
  * \throw std::runtime_error */
 void
-CheckPixelsAreKnown(const DicomHeader & header);
+CheckPixels(const DicomHeader & header);
 
 /** A type that holds the values of all slices: the stored one where nothing is rescaled, the smallest integer from 16
  * bits on where slopes and intercepts are integers, else float, or double for 32 stored bits. */

@@ -139,6 +139,10 @@ CheckPixels(const DicomHeader & header)
            "stores " + std::to_string(header.BitsStored) + " bits up to bit " + std::to_string(header.HighBit) +
              " of each pixel, which is not supported");
   }
+  if (header.Columns == 0 || header.Rows == 0)
+  {
+    Refuse(header, "is empty");
+  }
   if (header.IsTruncated)
   {
     Refuse(header, "is truncated, or has no voxels");

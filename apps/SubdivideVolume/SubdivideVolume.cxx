@@ -2,6 +2,7 @@
 // Doubles the resolution of an image. See SubdivideVolume --help.
 
 #include "CommandLine.h"
+#include "Dicom.h"
 #include "FormatTable.h"
 #include "Interrupt.h"
 #include "LevelChain.h"
@@ -138,7 +139,7 @@ Perform(const Options & options)
     case Task::Inform:
       return Inform(options);
     case Task::ListSeries:
-      return PrintSeries(options.Input);
+      return PrintDicomSeries(ListDicomSeries(options.Input), stdout);
     case Task::ListFormats:
       return PrintResult(DescribeFormats(options.Json));
     case Task::DescribeItself:

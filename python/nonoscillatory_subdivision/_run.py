@@ -29,11 +29,18 @@ def is_native(array: NDArray[Any]) -> bool:
     )
 
 
+def is_in_order(array: NDArray[Any]) -> bool:
+    """Whether memory runs along the last axis first. The array layer goes through an input along its memory, and sums
+    in another order have other last digits."""
+    distances = [abs(stride) for stride in array.strides]
+    return all(outer >= inner > 0 for outer, inner in zip(distances, distances[1:]))
+
+
 def to_native(array: NDArray[Any]) -> NDArray[Any]:
-    """The same values in a type, byte order and alignment that the array layer takes; a copy only where it must be."""
+    """The same values as the array layer takes them from an array in C's order; a copy only where it must be."""
     if array.dtype.kind == "b":
         array = array.view(np.uint8)
-    if is_native(array):
+    if is_native(array) and is_in_order(array):
         return array
     return np.ascontiguousarray(array, dtype=native_type(array.dtype))
 

@@ -75,9 +75,10 @@ def subdivide(
 
     Parameters
     ----------
-    volume : array_like, or itk.Image, SimpleITK.Image or xarray.DataArray
+    volume : array_like, or itk.Image, SimpleITK.Image, xarray.DataArray or dask.array.Array
         1-D to 4-D, axes in the order (z, y, x); any integer or floating type or bool, any strides and byte order. An
-        image comes back as one of its own kind on the doubled grid; its axes are numbered in the same order.
+        image comes back as one of its own kind on the doubled grid; its axes are numbered in the same order. A Dask
+        array stays lazy: see `nonoscillatory_subdivision.dask`.
     scheme : str, optional
         One of `schemes()`: "nonoscillatory", "linear", "bounded", "bspline", "restored".
     tension : float, optional
@@ -133,19 +134,18 @@ def subdivide(
     (4,)
     """
     if not isinstance(volume, np.ndarray):
+        options = {"scheme": scheme, "tension": tension, "boundary": boundary, "dtype": dtype}
+        place = {"axes": axes, "levels": levels, "channel_axis": channel_axis}
+        in_memory = {"threads": threads, "progress": progress}
+        if images.is_dask_array(volume):
+            from . import dask
+
+            images.refuse({"region": region, "out": out} | in_memory, volume)
+            return dask.subdivide(volume, **options, **place)
         adapter = images.find_adapter(volume)
         if adapter is not None:
-            return images.subdivide_image(
-                adapter,
-                volume,
-                subdivide,
-                {"scheme": scheme, "tension": tension, "boundary": boundary, "dtype": dtype}
-                | {"threads": threads, "progress": progress},
-                axes=axes,
-                levels=levels,
-                channel_axis=channel_axis,
-                unsupported={"region": region, "out": out},
-            )
+            images.refuse({"region": region, "out": out}, volume)
+            return images.subdivide_image(adapter, volume, subdivide, options | in_memory, **place)
     array = _arguments.checked_volume(volume)
     channel_axis = _arguments.checked_dimension(array.ndim, channel_axis)
     run = Run(

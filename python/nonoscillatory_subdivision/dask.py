@@ -80,8 +80,7 @@ def _one_level(array: Any, dtype: np.dtype[Any], options: dict[str, Any]) -> Any
     # An axis of one chunk is whole, and its boundary is applied by the scheme itself.
     depth = dict.fromkeys(range(array.ndim), 0)
     for axis in options["axes"]:
-        if len(chunks[axis]) > 1:
-            chunks[axis] = dask.array.overlap.ensure_minimum_chunksize(radius, chunks[axis])
+        chunks[axis] = _thick_chunks(chunks[axis], radius)
         if len(chunks[axis]) > 1:
             depth[axis] = radius
     array = array.rechunk(tuple(chunks))
@@ -102,6 +101,13 @@ def _one_level(array: Any, dtype: np.dtype[Any], options: dict[str, Any]) -> Any
         depth_of_axis=depth,
         options=options,
     )
+
+
+def _thick_chunks(sizes: tuple[int, ...], thinnest: int) -> tuple[int, ...]:
+    """Joins chunks that are too thin with their neighbours."""
+    if sum(sizes) < 2 * thinnest:
+        return (sum(sizes),)
+    return tuple(dask.array.overlap.ensure_minimum_chunksize(thinnest, sizes))
 
 
 def subdivide_chunk(

@@ -37,6 +37,18 @@ def find_adapter(image: object) -> Adapter | None:
     return None
 
 
+def is_dask_array(volume: object) -> bool:
+    dask_array = sys.modules.get("dask.array")
+    return dask_array is not None and isinstance(volume, dask_array.Array)
+
+
+def refuse(options: dict[str, Any], volume: object) -> None:
+    """Options that only arrays in memory have."""
+    for name, value in options.items():
+        if value is not None:
+            raise TypeError(f"{name} is for arrays in memory, not for {type(volume).__name__}")
+
+
 def subdivide_image(
     adapter: Adapter,
     image: Any,
@@ -46,11 +58,7 @@ def subdivide_image(
     axes: int | Sequence[int] | None,
     levels: int,
     channel_axis: int | None,
-    unsupported: dict[str, Any],
 ) -> Any:
-    for name, value in unsupported.items():
-        if value is not None:
-            raise TypeError(f"{name} is for arrays: {type(image).__name__} comes back as a whole image")
     array, components = adapter.to_array(image)
     if components is not None and channel_axis is not None:
         raise TypeError(f"channel_axis {channel_axis}: the image has its components apart from its axes")

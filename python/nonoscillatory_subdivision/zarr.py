@@ -237,7 +237,7 @@ def _connect(arguments: argparse.Namespace) -> distributed.Client:
     if arguments.scheduler is not None:
         return distributed.Client(arguments.scheduler, timeout=30)
     workers = _arguments.checked_threads(arguments.workers)
-    return distributed.Client(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None)
+    return distributed.Client(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=":0")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

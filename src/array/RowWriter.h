@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RowWriter_h
+#define RowWriter_h
+
+#include "NonOscillatorySubdivision/Kernel.h"
+#include "array/RunPlan.h"
+#include "memory/NonTemporalWriter.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace itk
+{
+namespace Subdivision
+{
+
+/** \brief Scatters the rows of children of a tile into an array, as its elements need it. */
+template <typename TReal>
+class RowWriter final : public RowSink<TReal>
+{
+public:
+  /** \param tile some positions along each axis of the plan
+   * \param monitor is told of what is written
+   * \param buffer room for a row, which grows as needed */
+  RowWriter(const RunPlan &              plan,
+            const TileAxes &             axes,
+            const Box &                  tile,
+            TileMonitor &                monitor,
+            std::vector<unsigned char> & buffer);
+
+  /** Chooses the position along each axis that is not one of the tile's; the others are ignored. */
+  void
+  SetImage(const std::vector<std::int64_t> & position);
+
+  void
+  WriteRow(std::ptrdiff_t y, std::ptrdiff_t z, const ChildRow<TReal> & children) override;
+
+private:
+  /** Outputs larger than the last-level cache of common processors, in bytes, are written past it. */
+  static constexpr std::uint64_t CacheSize = std::uint64_t{ 16 } << 20;
+
+  /** So many planes of children come in turns, whose rows follow one another. */
+  static constexpr std::size_t Streams = 12;
+
+  /** Children of the tile along an axis, counted from the first output. */
+  Interval
+  GetChildren(std::size_t axis) const;
+
+  /** Moves a pointer to a child along an axis that the tile may lack; whether the output has that child. */
+  bool
+  MoveTo(std::size_t axis, std::ptrdiff_t child, unsigned char *& row) const;
+
+  const RunPlan & m_Plan;
+  TileAxes        m_Axes;
+  const Box &     m_Tile;
+  TileMonitor &   m_Monitor;
+
+  /** The children of a row that the output has: how many come before them, and how many they are. */
+  std::size_t m_Skipped;
+  std::size_t m_Count;
+
+  /** Whether the output is too large for who reads it to find much of it in the cache. */
+  bool m_IsLarge;
+
+  /** The first child that a row writes, and output 0 of the other axes of the tile. */
+  unsigned char * m_Image{ nullptr };
+
+  std::vector<unsigned char> &           m_Buffer;
+  std::array<NonTemporalWriter, Streams> m_Streams;
+};
+
+extern template class RowWriter<float>;
+extern template class RowWriter<double>;
+
+} // namespace Subdivision
+} // namespace itk
+
+#endif

@@ -1,0 +1,278 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Subdivision of Zarr and OME-Zarr images of any size, on one machine or a cluster. Needs the extra ``zarr``.
+
+python -m nonoscillatory_subdivision.zarr IN OUT
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+import distributed
+import tqdm
+import zarr
+
+from . import _arguments, _core, _zarr_image, schemes
+from ._arguments import Boundary
+from ._zarr_blocks import Job, Progress, block_size, compute_block
+
+__all__ = ["main", "subdivide"]
+
+PROGRAM = "python -m nonoscillatory_subdivision.zarr"
+
+
+def subdivide(
+    source: str,
+    target: str | None,
+    client: distributed.Client,
+    *,
+    scheme: str = "nonoscillatory",
+    tension: float = 2.0,
+    boundary: Boundary = "nearest",
+    axes: Sequence[str] | None = None,
+    levels: int = 1,
+    chunks: Sequence[int] | None = None,
+    report: Callable[[int, int], None] = lambda done, all_blocks: None,
+) -> None:
+    """Double the resolution of an image in a Zarr store.
+
+    The scale of an OME-Zarr image is halved for each level, its translation moves by a quarter of the old voxel down
+    for one level. A run that was ended before it was complete is taken up by the same call.
+
+    Parameters
+    ----------
+    source : str
+        A Zarr array, or the group of an OME-Zarr image (0.4 on Zarr 2, 0.5 on Zarr 3), of which the finest level is
+        read. Whatever Zarr opens, if all workers can.
+    target : str or None
+        The folder of the result, which does not exist. All workers and the caller see it. None: the result becomes the
+        finest level of the source's own pyramid.
+    client : distributed.Client
+        Whose workers compute the blocks.
+    scheme, tension, boundary, levels
+        As for `nonoscillatory_subdivision.subdivide`.
+    axes : sequence of str, optional
+        The names of axes to subdivide, or positions in a plain array. Default: those of space; all or the last three of
+        a plain array.
+    chunks : sequence of int, optional
+        The chunks of the result. Default: as large as the source's, and in shards as the source's.
+    report : callable, optional
+        Called with the number of finished blocks and of all.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If there is no image, an argument does not fit it, or the target exists.
+    """
+    image = _zarr_image.open_image(source)
+    positions = image.axes_to_subdivide(axes)
+    place = _Place(image, target)
+    _check(image, scheme, tension, boundary, levels, positions, chunks)
+    job = _prepare(image, place, scheme, float(tension), boundary, positions, levels, chunks)
+    total = 1
+    for count in job.grid():
+        total *= count
+    finished = place.progress.finished()
+    report(len(finished), total)
+    missing = (block for block in range(total) if block not in finished)
+    for done in _compute_blocks(client, job, missing, str(place.progress.folder)):
+        report(len(finished) + done, total)
+    place.describe(positions, levels)
+    place.progress.end()
+
+
+class _Place:
+    """Where the result goes: a new array, a new group with one array, or an array in the source's group."""
+
+    def __init__(self, image: _zarr_image.Image, target: str | None) -> None:
+        self._image = image
+        self._is_level = target is None
+        if target is None:
+            if image.multiscale is None:
+                raise ValueError(f"{image.path} is a plain array: it has no pyramid to put a level before")
+            target = image.path
+        self.folder = Path(target)
+        self._name = None
+        if image.multiscale is not None:
+            finest = image.multiscale["datasets"][0]["path"]
+            self._name = f"{finest}-doubled" if self._is_level else "0"
+        self.array = self.folder if self._name is None else self.folder / self._name
+        # Beside the result, so that it is no part of it.
+        self.progress = Progress(self.folder.with_name(self.folder.name + ".unfinished"))
+
+    def exists(self) -> bool:
+        return (self.array if self._is_level else self.folder).exists()
+
+    def create(self, positions: Sequence[int], levels: int, chunks: Sequence[int] | None) -> Any:
+        if self._name is not None and not self._is_level:
+            zarr.create_group(str(self.folder), zarr_format=self._image.array.metadata.zarr_format)
+        return _zarr_image.create_array(str(self.array), self._image, positions, levels, chunks)
+
+    def describe(self, positions: Sequence[int], levels: int) -> None:
+        """Comes last, so that nobody takes an unfinished image for a finished one."""
+        if self._name is None:
+            return
+        if self._is_level:
+            _zarr_image.prepend_level(self._image, positions, levels, self._name)
+        else:
+            _zarr_image.write_new_group(str(self.folder), self._image, positions, levels, self._name)
+
+
+def _check(
+    image: _zarr_image.Image,
+    scheme: str,
+    tension: float,
+    boundary: Boundary,
+    levels: int,
+    positions: Sequence[int],
+    chunks: Sequence[int] | None,
+) -> None:
+    _arguments.checked_type(image.array.dtype, image.array_path)
+    if 0 in image.array.shape:
+        raise ValueError(f"{image.array_path} has shape {image.array.shape}: there is nothing to subdivide")
+    _arguments.checked_levels(levels)
+    flags = [axis in positions for axis in range(image.array.ndim)]
+    _core.Options(scheme, tension, flags, *_arguments.checked_boundary(boundary))
+    if chunks is not None and (len(chunks) != image.array.ndim or min(chunks) < 1):
+        raise ValueError(f"chunks {tuple(chunks)} are not {image.array.ndim} positive numbers")
+
+
+def _prepare(
+    image: _zarr_image.Image,
+    place: _Place,
+    scheme: str,
+    tension: float,
+    boundary: Boundary,
+    positions: tuple[int, ...],
+    levels: int,
+    chunks: Sequence[int] | None,
+) -> Job:
+    """The job; its output is created unless a run of this very job began before."""
+
+    def job_for(unit: Sequence[int], shape: Sequence[int]) -> Job:
+        return Job(
+            input=str(Path(image.array_path).resolve()) if Path(image.array_path).exists() else image.array_path,
+            output=str(place.array.resolve()),
+            shape=image.array.shape,
+            dtype=str(image.array.dtype),
+            scheme=scheme,
+            tension=tension,
+            boundary=boundary,
+            axes=positions,
+            levels=levels,
+            block=block_size(unit, shape, positions),
+        )
+
+    if place.progress.exists():
+        output = zarr.open_array(str(place.array), mode="r")
+        job = job_for(output.shards or output.chunks, output.shape)
+        is_same = place.progress.is_of(job) and (chunks is None or tuple(chunks) == output.chunks)
+        if not is_same:
+            raise ValueError(
+                f"{place.folder} was begun with other options: take it up with those, or remove it "
+                f"and {place.progress.folder}"
+            )
+        return job
+    if place.exists():
+        raise ValueError(f"{place.array if place.array.exists() else place.folder} exists: remove it or choose another name")
+    output = place.create(positions, levels, chunks)
+    job = job_for(output.shards or output.chunks, output.shape)
+    place.progress.begin(job)
+    return job
+
+
+def _compute_blocks(
+    client: distributed.Client, job: Job, blocks: Iterable[int], progress_folder: str
+) -> Iterable[int]:
+    """Yields how many blocks are done. Those of a worker that is lost are given to another one by the scheduler."""
+    remaining = iter(blocks)
+
+    def submit(block: int) -> distributed.Future:
+        return client.submit(compute_block, job, block, progress_folder, pure=False, retries=2)
+
+    # A few blocks for each thread are enough to keep it busy; a task for every block might be too many.
+    window = 3 * max(1, sum(client.nthreads().values()))
+    running = distributed.as_completed([submit(block) for block in islice(remaining, window)])
+    for done, future in enumerate(running, start=1):
+        future.result()
+        for block in islice(remaining, 1):
+            running.add(submit(block))
+        yield done
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog=PROGRAM, description="Double the resolution of a Zarr or OME-Zarr image.")
+    parser.add_argument("input", metavar="IN", help="Zarr array, or group of an OME-Zarr image (0.4 or 0.5)")
+    parser.add_argument("output", metavar="OUT", nargs="?", help="the folder to write; must not exist")
+    parser.add_argument("--append-level", action="store_true", help="no OUT: put the result before IN's finest level")
+    parser.add_argument("--scheme", default="nonoscillatory", choices=schemes())
+    parser.add_argument("--tension", type=float, default=2.0)
+    parser.add_argument("--boundary", type=_boundary, default="nearest", help="nearest, mirror, periodic or a number")
+    parser.add_argument("--axes", type=lambda text: text.split(","), help="such as y,x; default: those of space")
+    parser.add_argument("--levels", type=int, default=1, help="1 to 3: 2, 4 or 8 times as fine")
+    parser.add_argument("--chunks", type=_numbers, help="such as 64,64,64; default: as IN's")
+    workers = parser.add_mutually_exclusive_group()
+    workers.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster that is running")
+    workers.add_argument("--workers", metavar="N", type=int, help="processes on this machine; default: one a processor")
+    return parser
+
+
+def _boundary(text: str) -> Boundary:
+    try:
+        return float(text)
+    except ValueError:
+        return _arguments.checked_boundary(text) and text
+
+
+def _numbers(text: str) -> tuple[int, ...]:
+    return tuple(int(part) for part in text.split(","))
+
+
+def _connect(arguments: argparse.Namespace) -> distributed.Client:
+    if arguments.scheduler is not None:
+        return distributed.Client(arguments.scheduler, timeout=30)
+    workers = _arguments.checked_threads(arguments.workers)
+    return distributed.Client(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=":0")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """The command line. Returns the exit code."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    if (options.output is None) != options.append_level:
+        parser.error("either OUT or --append-level")
+    try:
+        with _connect(options) as client, tqdm.tqdm(unit="block") as bar:
+
+            def report(done: int, total: int) -> None:
+                bar.total = total
+                bar.update(done - bar.n)
+
+            subdivide(
+                options.input,
+                options.output,
+                client,
+                scheme=options.scheme,
+                tension=options.tension,
+                boundary=options.boundary,
+                axes=options.axes,
+                levels=options.levels,
+                chunks=options.chunks,
+                report=report,
+            )
+    except KeyboardInterrupt:
+        print(f"{PROGRAM}: interrupted: the same command goes on from here", file=sys.stderr)
+        return 130
+    except (ValueError, TypeError, OSError, distributed.scheduler.KilledWorker) as error:
+        print(f"{PROGRAM}: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

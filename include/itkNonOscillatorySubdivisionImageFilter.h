@@ -2,15 +2,7 @@
 #ifndef itkNonOscillatorySubdivisionImageFilter_h
 #define itkNonOscillatorySubdivisionImageFilter_h
 
-#include "NonOscillatorySubdivision/Subdivider.h"
-#include "itkNonOscillatorySubdivisionImageFilterEnums.h"
-#include "itkSubdivisionImageView.h"
-
-#include "itkFixedArray.h"
-#include "itkImageToImageFilter.h"
-
-#include <string>
-#include <type_traits>
+#include "itkSubdivisionImageFilterBase.h"
 
 namespace itk
 {
@@ -66,166 +58,45 @@ namespace itk
  * \ingroup NonOscillatorySubdivision
  */
 template <typename TInputImage, typename TOutputImage = TInputImage>
-class ITK_TEMPLATE_EXPORT NonOscillatorySubdivisionImageFilter : public ImageToImageFilter<TInputImage, TOutputImage>
+class ITK_TEMPLATE_EXPORT NonOscillatorySubdivisionImageFilter
+  : public SubdivisionImageFilterBase<TInputImage, TOutputImage>
 {
 public:
   ITK_DISALLOW_COPY_AND_MOVE(NonOscillatorySubdivisionImageFilter);
 
   using Self = NonOscillatorySubdivisionImageFilter;
-  using Superclass = ImageToImageFilter<TInputImage, TOutputImage>;
+  using Superclass = SubdivisionImageFilterBase<TInputImage, TOutputImage>;
   using Pointer = SmartPointer<Self>;
   using ConstPointer = SmartPointer<const Self>;
 
   itkNewMacro(Self);
-  itkTypeMacro(NonOscillatorySubdivisionImageFilter, ImageToImageFilter);
-
-  static_assert(Detail::IsBufferedGrid<TInputImage> && Detail::IsBufferedGrid<TOutputImage>,
-                "Images to be subdivided are itk::Image or itk::VectorImage: no adaptors, label maps or special "
-                "coordinates.");
-  static_assert(Detail::HasElements<TInputImage> && Detail::HasElements<TOutputImage>,
-                "Pixels to be subdivided are, or consist of, integers of 8 to 64 bits, float or double: no matrices, "
-                "long double or pixels of variable length outside itk::VectorImage.");
-  static_assert(static_cast<unsigned int>(TInputImage::ImageDimension) ==
-                  static_cast<unsigned int>(TOutputImage::ImageDimension),
-                "Images before and after subdivision have the same dimension.");
-
-  static constexpr unsigned int Dimension = TInputImage::ImageDimension;
-
-  /** At most this many axes can be subdivided in one run. */
-  static constexpr unsigned int MaximumNumberOfSubdividedAxes = 3;
-
-  using InputImageType = TInputImage;
-  using OutputImageType = TOutputImage;
-  using InputRegionType = typename InputImageType::RegionType;
-  using OutputRegionType = typename OutputImageType::RegionType;
+  itkTypeMacro(NonOscillatorySubdivisionImageFilter, SubdivisionImageFilterBase);
 
   /** The type of the computation, float or double. */
   using RealType = typename std::conditional<
-    Subdivision::NeedsDouble(Subdivision::ElementTypeOf<Detail::SubdivisionComponentType<InputImageType>>()) ||
-      Subdivision::NeedsDouble(Subdivision::ElementTypeOf<Detail::SubdivisionComponentType<OutputImageType>>()),
+    Subdivision::NeedsDouble(Subdivision::ElementTypeOf<Detail::SubdivisionComponentType<TInputImage>>()) ||
+      Subdivision::NeedsDouble(Subdivision::ElementTypeOf<Detail::SubdivisionComponentType<TOutputImage>>()),
     double,
     float>::type;
 
-  using SchemeEnum = NonOscillatorySubdivisionImageFilterEnums::Scheme;
-  using AxesType = FixedArray<bool, Dimension>;
-  using BoundaryConditionType = ImageBoundaryCondition<InputImageType, InputImageType>;
-  using BoundaryConditionPointerType = BoundaryConditionType *;
-  using DefaultBoundaryConditionType = ZeroFluxNeumannBoundaryCondition<InputImageType, InputImageType>;
-
-  /** The scheme. Default: NonOscillatory.
-   * \throw ExceptionObject if there is no such scheme
-   * @{ */
-  virtual void
-  SetScheme(SchemeEnum scheme);
-  itkGetEnumMacro(Scheme, SchemeEnum);
-  /** @} */
-
-  /** The scheme by its name: nonoscillatory, linear, bounded, bspline or restored.
-   * \throw ExceptionObject that lists the names, if it is none of them */
-  virtual void
-  SetSchemeByName(const std::string & name);
-
-  /** The tension of the non-oscillatory and the restored scheme, without a unit: finite and greater than 1, or at
-   * least 0 for the restored scheme, which is checked when the filter runs. The larger, the closer to the linear
-   * scheme. Default: 2.
-   * @{ */
-  itkSetMacro(Tension, double);
-  itkGetConstMacro(Tension, double);
-  /** @} */
-
-  /** What supplies the pixels outside the image. The filter does not own it: it must live as long as the filter uses
-   * it, and a change of it is seen only after Modified(). It is asked by several threads at once, unless it is one of
-   * ITK's three or MirrorBoundaryCondition, but none derived from them. The constant of a ConstantBoundaryCondition
-   * must have as many components as a pixel. Null stands for the default, which Get returns then: zero flux, the
-   * nearest pixel.
-   * @{ */
-  virtual void
-  SetBoundaryCondition(BoundaryConditionPointerType boundaryCondition);
-  itkGetConstMacro(BoundaryCondition, BoundaryConditionPointerType);
-  virtual void
-  SetBoundaryConditionToDefault();
-  /** @} */
-
-  /** Which axes are subdivided, three at most, which is checked when the filter runs. An axis that is not keeps its
-   * size, spacing and origin: each of its samples is an image of its own. Default: the first three.
-   * @{ */
-  itkSetMacro(SubdividedAxes, AxesType);
-  itkGetConstReferenceMacro(SubdividedAxes, AxesType);
-  /** @} */
-
-  /** Whether one of the axes is subdivided.
-   * \throw ExceptionObject if there is no such axis */
-  virtual void
-  SetSubdividedAxis(unsigned int axis, bool isSubdivided);
-
-  /** The name of the instruction set to compute with, one of itk::Subdivision::Target::GetNames(). Results of two of
-   * them may differ in the last place. Default: the empty name, which stands for the fastest.
-   * \throw ExceptionObject that lists the names, if this processor has no such instruction set
-   * @{ */
-  virtual void
-  SetTarget(const std::string & target);
-  itkGetConstReferenceMacro(Target, std::string);
-  /** @} */
-
 protected:
-  NonOscillatorySubdivisionImageFilter();
+  NonOscillatorySubdivisionImageFilter() = default;
   ~NonOscillatorySubdivisionImageFilter() override = default;
 
-  void
-  PrintSelf(std::ostream & os, Indent indent) const override;
-
-  void
-  VerifyPreconditions() const override;
-
-  void
-  VerifyInputInformation() const override;
-
-  void
-  GenerateOutputInformation() override;
-
-  void
-  GenerateInputRequestedRegion() override;
-
-  /** Hands the tiles of the requested region to the threads. */
-  void
-  GenerateData() override;
-
-private:
-  /** The axes as those of an array whose first axis is that of the components. */
-  Subdivision::Flags
-  GetFlags() const;
-
-  /** What to compute, but for the boundary. */
-  Subdivision::Options
-  GetOptions() const;
-
-  const Subdivision::Scheme &
-  GetParts() const
+  std::unique_ptr<Subdivision::TileRun>
+  MakeRun(const Subdivision::ConstArrayView & input,
+          const Subdivision::Box &            whole,
+          const Subdivision::ArrayView &      output,
+          const Subdivision::Options &        options,
+          const unsigned int                  threads) override
   {
-    return Subdivision::Schemes[static_cast<std::size_t>(m_Scheme)];
+    return std::make_unique<Subdivision::Subdivider>(input, whole, output, options, threads, m_Workspace);
   }
 
-  /** The input pixels, those outside the image among them, that a region of the output depends on. */
-  InputRegionType
-  ComputeStencil(const OutputRegionType & outputRegion) const;
-
-  /** The part of the input that a region of the output, which is not empty, depends on. */
-  InputRegionType
-  ComputeRequest(const OutputRegionType & outputRegion) const;
-
-  DefaultBoundaryConditionType m_DefaultBoundaryCondition;
-  BoundaryConditionPointerType m_BoundaryCondition{ &m_DefaultBoundaryCondition };
-  SchemeEnum                   m_Scheme{ SchemeEnum::NonOscillatory };
-  double                       m_Tension{ 2.0 };
-  AxesType                     m_SubdividedAxes;
-  std::string                  m_Target;
-  Subdivision::Workspace       m_Workspace;
+private:
+  Subdivision::Workspace m_Workspace;
 };
 
 } // namespace itk
-
-#ifndef ITK_MANUAL_INSTANTIATION
-#  include "itkNonOscillatorySubdivisionImageFilter.hxx"
-#endif
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef itkSubdivisionProgress_h
 #define itkSubdivisionProgress_h
 
-#include "NonOscillatorySubdivision/Subdivider.h"
+#include "NonOscillatorySubdivision/TileRun.h"
 
 #include "itkMultiThreaderBase.h"
 #include "itkProcessObject.h"
@@ -23,7 +23,7 @@ namespace Detail
 
 /** \class SubdivisionProgress
  *
- * \brief Runs the tiles of a NonOscillatorySubdivisionImageFilter on its threader, while the thread that updates the
+ * \brief Runs the tiles of a filter on its threader, while the thread that updates the
  * filter, the only one that may tell observers, reports progress and hears of an abort.
  *
  * That thread computes no tile where there are several work units: it would have to wait for the end of its tile, and
@@ -44,9 +44,8 @@ public:
 
   /** Computes all tiles of a run.
    * \throw ProcessAborted, or the first exception of any thread or observer */
-  template <typename TRun>
   void
-  RunTiles(TRun & run, MultiThreaderBase * const threader, const SizeValueType workUnits)
+  RunTiles(Subdivision::TileRun & run, MultiThreaderBase * const threader, const SizeValueType workUnits)
   {
     const std::size_t        tiles = run.GetNumberOfTiles();
     std::atomic<std::size_t> next{ 0 };

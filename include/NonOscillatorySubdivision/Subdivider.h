@@ -6,6 +6,7 @@
 #include "NonOscillatorySubdivision/Boundary.h"
 #include "NonOscillatorySubdivision/Scheme.h"
 #include "NonOscillatorySubdivision/Target.h"
+#include "NonOscillatorySubdivision/TileRun.h"
 #include "NonOscillatorySubdivision/Tiling.h"
 #include "NonOscillatorySubdivisionExport.h"
 
@@ -31,21 +32,6 @@ struct Options
   const Subdivision::Target * Target = nullptr;
 };
 
-/** \brief Told of what is done, and asked whether to go on, by every thread that computes tiles. */
-class NonOscillatorySubdivision_EXPORT TileMonitor
-{
-public:
-  virtual ~TileMonitor();
-
-  /** Output elements were written. */
-  virtual void
-  Completed(std::size_t elements) = 0;
-
-  /** Asked before a tile; where it says so, the tile is not computed. */
-  virtual bool
-  IsStopped() const = 0;
-};
-
 /** \brief Kernels and buffers that are kept from run to run. Used by one Subdivider at a time. */
 class NonOscillatorySubdivision_EXPORT Workspace
 {
@@ -67,7 +53,7 @@ private:
  *
  * The bytes of an element depend on the input and the options alone: not on the box asked for, the tiles or the
  * threads. */
-class NonOscillatorySubdivision_EXPORT Subdivider
+class NonOscillatorySubdivision_EXPORT Subdivider : public TileRun
 {
 public:
   /** \param input what there is of the input: at least what GetInputRequest() names
@@ -81,7 +67,7 @@ public:
              const Options &        options,
              unsigned int           threads,
              Workspace &            workspace);
-  ~Subdivider();
+  ~Subdivider() override;
   Subdivider(const Subdivider &) = delete;
   Subdivider &
   operator=(const Subdivider &) = delete;
@@ -96,11 +82,11 @@ public:
   GetWholeOutput(const Box & whole, const Flags & subdivided);
 
   std::size_t
-  GetNumberOfTiles() const;
+  GetNumberOfTiles() const override;
 
-  /** From any thread, each tile once, in any order. May throw what the boundary throws; then the tile is incomplete. */
+  /** May throw what the boundary throws. */
   void
-  ComputeTile(std::size_t number, TileMonitor & monitor);
+  ComputeTile(std::size_t number, TileMonitor & monitor) override;
 
 private:
   struct Implementation;

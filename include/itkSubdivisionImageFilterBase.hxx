@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef itkNonOscillatorySubdivisionImageFilter_hxx
-#define itkNonOscillatorySubdivisionImageFilter_hxx
+#ifndef itkSubdivisionImageFilterBase_hxx
+#define itkSubdivisionImageFilterBase_hxx
 
 #include "NonOscillatorySubdivision/Geometry.h"
 #include "NonOscillatorySubdivision/Scheme.h"
@@ -18,7 +18,7 @@ namespace itk
 {
 
 template <typename TInputImage, typename TOutputImage>
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::NonOscillatorySubdivisionImageFilter()
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::SubdivisionImageFilterBase()
 {
   for (unsigned int axis = 0; axis < Dimension; ++axis)
   {
@@ -30,7 +30,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::NonOscillatoryS
 
 template <typename TInputImage, typename TOutputImage>
 void
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SetScheme(const SchemeEnum scheme)
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::SetScheme(const SchemeEnum scheme)
 {
   constexpr std::size_t schemes = std::size(Subdivision::Schemes);
   static_assert(static_cast<std::size_t>(SchemeEnum::Restored) + 1 == schemes, "ITK's enumeration has all schemes");
@@ -48,7 +48,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SetScheme(const
 
 template <typename TInputImage, typename TOutputImage>
 void
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SetSchemeByName(const std::string & name)
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::SetSchemeByName(const std::string & name)
 {
   const auto scheme = std::find_if(std::begin(Subdivision::Schemes),
                                    std::end(Subdivision::Schemes),
@@ -67,7 +67,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SetSchemeByName
 
 template <typename TInputImage, typename TOutputImage>
 void
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SetBoundaryCondition(
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::SetBoundaryCondition(
   const BoundaryConditionPointerType boundaryCondition)
 {
   const BoundaryConditionPointerType chosen = boundaryCondition ? boundaryCondition : &m_DefaultBoundaryCondition;
@@ -80,15 +80,15 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SetBoundaryCond
 
 template <typename TInputImage, typename TOutputImage>
 void
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SetBoundaryConditionToDefault()
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::SetBoundaryConditionToDefault()
 {
   this->SetBoundaryCondition(nullptr);
 }
 
 template <typename TInputImage, typename TOutputImage>
 void
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SetSubdividedAxis(const unsigned int axis,
-                                                                                   const bool         isSubdivided)
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::SetSubdividedAxis(const unsigned int axis,
+                                                                         const bool         isSubdivided)
 {
   if (axis >= Dimension)
   {
@@ -101,7 +101,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SetSubdividedAx
 
 template <typename TInputImage, typename TOutputImage>
 void
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SetTarget(const std::string & target)
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::SetTarget(const std::string & target)
 {
   try
   {
@@ -120,7 +120,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::SetTarget(const
 
 template <typename TInputImage, typename TOutputImage>
 void
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::PrintSelf(std::ostream & os, Indent indent) const
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::PrintSelf(std::ostream & os, Indent indent) const
 {
   Superclass::PrintSelf(os, indent);
   os << indent << "Scheme: " << m_Scheme << std::endl;
@@ -133,7 +133,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::PrintSelf(std::
 
 template <typename TInputImage, typename TOutputImage>
 void
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::VerifyPreconditions() const
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::VerifyPreconditions() const
 {
   Superclass::VerifyPreconditions();
   try
@@ -154,7 +154,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::VerifyPrecondit
 
 template <typename TInputImage, typename TOutputImage>
 void
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::VerifyInputInformation() const
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::VerifyInputInformation() const
 {
   Superclass::VerifyInputInformation();
   const InputRegionType & region = this->GetInput()->GetLargestPossibleRegion();
@@ -171,7 +171,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::VerifyInputInfo
 
 template <typename TInputImage, typename TOutputImage>
 Subdivision::Flags
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GetFlags() const
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::GetFlags() const
 {
   Subdivision::Flags flags{ false };
   flags.insert(flags.end(), m_SubdividedAxes.Begin(), m_SubdividedAxes.End());
@@ -180,7 +180,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GetFlags() cons
 
 template <typename TInputImage, typename TOutputImage>
 Subdivision::Options
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GetOptions() const
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::GetOptions() const
 {
   Subdivision::Options options;
   options.Scheme = &this->GetParts();
@@ -192,7 +192,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GetOptions() co
 
 template <typename TInputImage, typename TOutputImage>
 void
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GenerateOutputInformation()
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::GenerateOutputInformation()
 {
   Superclass::GenerateOutputInformation();
 
@@ -236,8 +236,8 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GenerateOutputI
 
 template <typename TInputImage, typename TOutputImage>
 auto
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::ComputeStencil(
-  const OutputRegionType & outputRegion) const -> InputRegionType
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::ComputeStencil(const OutputRegionType & outputRegion) const
+  -> InputRegionType
 {
   InputRegionType stencil = outputRegion;
   for (unsigned int axis = 0; axis < Dimension; ++axis)
@@ -255,8 +255,8 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::ComputeStencil(
 
 template <typename TInputImage, typename TOutputImage>
 auto
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::ComputeRequest(
-  const OutputRegionType & outputRegion) const -> InputRegionType
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::ComputeRequest(const OutputRegionType & outputRegion) const
+  -> InputRegionType
 {
   const InputImageType * const input = this->GetInput();
   const InputRegionType &      largest = input->GetLargestPossibleRegion();
@@ -274,7 +274,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::ComputeRequest(
 
 template <typename TInputImage, typename TOutputImage>
 void
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GenerateInputRequestedRegion()
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::GenerateInputRequestedRegion()
 {
   auto * const input = const_cast<InputImageType *>(this->GetInput());
   if (input)
@@ -288,7 +288,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GenerateInputRe
 
 template <typename TInputImage, typename TOutputImage>
 void
-NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GenerateData()
+SubdivisionImageFilterBase<TInputImage, TOutputImage>::GenerateData()
 {
   this->AllocateOutputs();
   const InputImageType * const input = this->GetInput();
@@ -302,14 +302,14 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::GenerateData()
 
   Subdivision::Options options = this->GetOptions();
   options.Boundary = Detail::ToBoundary<InputImageType>(*m_BoundaryCondition, input);
-  Subdivision::Subdivider     subdivider(Detail::ViewRegion<const void>(input, input->GetBufferedRegion()),
-                                     Detail::ToBox(input, input->GetLargestPossibleRegion()),
-                                     Detail::ViewRegion<void>(output, requested),
-                                     options,
-                                     static_cast<unsigned int>(threads),
-                                     m_Workspace);
+  const std::unique_ptr<Subdivision::TileRun> run =
+    this->MakeRun(Detail::ViewRegion<const void>(input, input->GetBufferedRegion()),
+                  Detail::ToBox(input, input->GetLargestPossibleRegion()),
+                  Detail::ViewRegion<void>(output, requested),
+                  options,
+                  static_cast<unsigned int>(threads));
   Detail::SubdivisionProgress progress(this, requested.GetNumberOfPixels() * Detail::CountComponents(output));
-  progress.RunTiles(subdivider, threader, workUnits);
+  progress.RunTiles(*run, threader, workUnits);
 
   if constexpr (std::is_same<Detail::SubdivisionComponentType<OutputImageType>, bool>::value)
   {

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <functional>
 #include <stdexcept>
 #include <thread>
 
@@ -27,11 +26,18 @@ Volume(const long size)
   return image;
 }
 
+template <typename TThreader>
+itk::MultiThreaderBase::Pointer
+Make()
+{
+  return TThreader::New().GetPointer();
+}
+
 struct Threading
 {
-  const char *                                                 Name;
-  std::function<itk::SmartPointer<itk::MultiThreaderBase>()> Make;
-  unsigned int                                                 WorkUnits;
+  const char * Name;
+  itk::MultiThreaderBase::Pointer (*Make)();
+  unsigned int WorkUnits;
 };
 
 std::vector<Threading>
@@ -40,9 +46,9 @@ AllThreadings()
   std::vector<Threading> threadings;
   for (const unsigned int units : { 1u, 2u, 64u })
   {
-    threadings.push_back({ "pool", [] { return itk::PoolMultiThreader::New().GetPointer(); }, units });
-    threadings.push_back({ "platform", [] { return itk::PlatformMultiThreader::New().GetPointer(); }, units });
-    threadings.push_back({ "the default", [] { return itk::MultiThreaderBase::New().GetPointer(); }, units });
+    threadings.push_back({ "pool", Make<itk::PoolMultiThreader>, units });
+    threadings.push_back({ "platform", Make<itk::PlatformMultiThreader>, units });
+    threadings.push_back({ "the default", Make<itk::MultiThreaderBase>, units });
   }
   return threadings;
 }
@@ -94,10 +100,10 @@ TEST(NonOscillatorySubdivisionAbort, ProgressIsToldOfWithEveryThreader)
   for (const Threading & threading : AllThreadings())
   {
     SCOPED_TRACE(testing::Message() << threading.Name << ", " << threading.WorkUnits << " work units");
-    auto                     filter = MakeFilter(threading);
-    std::vector<float>       values;
-    std::atomic<bool>        isElsewhere{ false };
-    const std::thread::id    here = std::this_thread::get_id();
+    auto                  filter = MakeFilter(threading);
+    std::vector<float>    values;
+    std::atomic<bool>     isElsewhere{ false };
+    const std::thread::id here = std::this_thread::get_id();
     filter->AddObserver(itk::ProgressEvent(), [&](const itk::EventObject &) {
       isElsewhere = isElsewhere || std::this_thread::get_id() != here;
       values.push_back(filter->GetProgress());
@@ -176,8 +182,8 @@ TEST(NonOscillatorySubdivisionAbort, ObserversMayThrow)
   {
     SCOPED_TRACE(testing::Message() << threading.Name << ", " << threading.WorkUnits << " work units");
     auto       filter = MakeFilter(threading);
-    const auto tag = filter->AddObserver(
-      itk::ProgressEvent(), [](const itk::EventObject &) { throw std::runtime_error("an observer's"); });
+    const auto tag = filter->AddObserver(itk::ProgressEvent(),
+                                         [](const itk::EventObject &) { throw std::runtime_error("an observer's"); });
     filter->SetInput(input);
     EXPECT_THROW(filter->UpdateLargestPossibleRegion(), std::runtime_error);
     filter->RemoveObserver(tag);

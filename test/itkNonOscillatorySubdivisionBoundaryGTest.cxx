@@ -186,11 +186,11 @@ TEST(NonOscillatorySubdivisionBoundary, UnknownOnesAreAskedForTheirRequest)
 
 TEST(NonOscillatorySubdivisionBoundary, NullIsTheDefault)
 {
-  const auto                                 input = SomeVolume();
+  const auto                                  input = SomeVolume();
   itk::PeriodicBoundaryCondition<DoubleImage> periodic;
-  auto                                       filter = DoubleFilter::New();
-  const auto * const                         standard = filter->GetBoundaryCondition();
-  const auto                                 expected = RunFilter(filter.GetPointer(), input.GetPointer());
+  auto                                        filter = DoubleFilter::New();
+  const auto * const                          standard = filter->GetBoundaryCondition();
+  const auto                                  expected = RunFilter(filter.GetPointer(), input.GetPointer());
 
   filter->SetBoundaryCondition(&periodic);
   const auto other = RunFilter(filter.GetPointer(), input.GetPointer());

@@ -92,7 +92,6 @@ ExpectSeamless(const ref::Index<3> & size)
         filter->GetOutput()->SetRequestedRegion(region);
         filter->Update();
         EXPECT_TRUE(SameBytesAsPartOf(filter->GetOutput(), whole.GetPointer())) << axis << ", " << region;
-        filter->GetOutput()->DisconnectPipeline();
       }
     }
   }

@@ -213,7 +213,8 @@ TEST_F(NonOscillatorySubdivisionVectorTargets, BelongToOneFilter)
   std::atomic<bool> isDone{ false };
   std::thread       other([&] {
     auto small = FloatFilter::New();
-    small->SetInput(ImageOf<FloatImage>(MakeRegion<FloatImage>({ 0, 0, 0 }, { 3, 3, 3 }), [](const auto &) { return 1; }));
+    small->SetInput(
+      ImageOf<FloatImage>(MakeRegion<FloatImage>({ 0, 0, 0 }, { 3, 3, 3 }), [](const auto &) { return 1; }));
     while (!isDone)
     {
       for (const std::string & target : itk::Subdivision::Target::GetNames())

@@ -2,12 +2,12 @@
 // Doubles the resolution of an image file. See SubdivideVolume --help.
 
 #include "FileIntegrity.h"
-#include "Interrupt.h"
 #include "LibraryMessages.h"
 #include "MemoryPlan.h"
 #include "OneLineMessage.h"
 #include "Options.h"
 #include "Subdivide.h"
+#include "WatchedRun.h"
 
 #include "itkMultiThreaderBase.h"
 
@@ -29,9 +29,7 @@ enum ExitCode
 Fail(ExitCode code, const std::string & message)
 {
   std::fprintf(GetTerminal(), "SubdivideVolume: %s\n", MakeOneLine(message).c_str());
-  std::fflush(nullptr);
-  // Not by way of the libraries' own ends: after a failed write, HDF5 complains at length there.
-  _exit(code);
+  EndRun(code);
 }
 
 void
@@ -142,12 +140,10 @@ Run(const Options & options)
                 report.NumberOfPieces == 1 ? "" : "s");
   }
 }
-} // namespace
 
 int
-main(int argc, char * argv[])
+RunProgram(int argc, char * argv[])
 {
-  WatchForInterrupts();
   try
   {
     Options                  options;
@@ -171,4 +167,11 @@ main(int argc, char * argv[])
   {
     Fail(RunFailed, error.what());
   }
+}
+} // namespace
+
+int
+main(int argc, char * argv[])
+{
+  return RunWatched([&] { return RunProgram(argc, argv); });
 }

@@ -13,6 +13,18 @@
 
 namespace
 {
+/** Whether a colour table says no more than the values do. */
+bool
+IsGreyRamp(const itk::BMPImageIO::PaletteType & palette)
+{
+  bool isRamp = palette.size() == 256;
+  for (std::size_t i = 0; isRamp && i < palette.size(); ++i)
+  {
+    isRamp = palette[i].GetRed() == i && palette[i].GetGreen() == i && palette[i].GetBlue() == i;
+  }
+  return isRamp;
+}
+
 itk::ImageIOBase::Pointer
 MakeImageIO(const std::string & format)
 {
@@ -38,8 +50,7 @@ public:
     this->CheckEnds(format);
     try
     {
-      m_ImageIO->SetFileName(path);
-      m_ImageIO->ReadImageInformation();
+      this->ReadHeader(format);
     }
     catch (const std::exception & error)
     {
@@ -102,6 +113,22 @@ public:
   }
 
 private:
+  /** ITK makes colours of every colour table unless it is told not to, also of the grey ones of 8-bit BMP files. */
+  void
+  ReadHeader(const std::string & format)
+  {
+    m_ImageIO->SetFileName(m_Path);
+    m_ImageIO->SetExpandRGBPalette(format != "BMP");
+    m_ImageIO->ReadImageInformation();
+    const auto * const bitmap = dynamic_cast<const itk::BMPImageIO *>(m_ImageIO.GetPointer());
+    if (bitmap != nullptr && m_ImageIO->GetIsReadAsScalarPlusPalette() && !IsGreyRamp(bitmap->GetColorPalette()))
+    {
+      m_ImageIO = MakeImageIO(format);
+      m_ImageIO->SetFileName(m_Path);
+      m_ImageIO->ReadImageInformation();
+    }
+  }
+
   [[noreturn]] void
   Fail(const std::string & reason) const
   {

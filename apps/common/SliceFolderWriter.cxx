@@ -137,7 +137,7 @@ SliceFolderWriter::IsOwnSlice(const std::string & name) const
          digits().find_first_not_of("0123456789") == std::string::npos;
 }
 
-/** What is not an output of before stays. */
+/** What is not an output of before stays; a name like that of a slice does not make it one. */
 void
 SliceFolderWriter::CheckOldFolder() const
 {
@@ -153,7 +153,8 @@ SliceFolderWriter::CheckOldFolder() const
   for (const fs::directory_entry & entry : fs::directory_iterator(m_Output))
   {
     const std::string name = entry.path().filename().string();
-    if (!this->IsOwnSlice(name) || !fs::is_regular_file(entry.symlink_status(error)))
+    if (!this->IsOwnSlice(name) || !fs::is_regular_file(entry.symlink_status(error)) ||
+        !IsOwnTiff(entry.path().string()))
     {
       this->Fail("the folder holds " + name + ", which is no slice of an earlier output; name another folder");
     }

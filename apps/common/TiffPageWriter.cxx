@@ -27,6 +27,8 @@ GetSampleFormat(ElementType type)
 
 // Strips of this size are compressed well and quickly read in part.
 constexpr std::uint64_t StripBytes = 1 << 18;
+
+constexpr char Software[] = "NonOscillatorySubdivision";
 } // namespace
 
 TiffPageWriter::TiffPageWriter(const std::string &      path,
@@ -84,6 +86,7 @@ TiffPageWriter::BeginPage(const std::string & text)
       this->SetTag(TIFFTAG_ZIPQUALITY, m_Options.CompressionLevel);
     }
   }
+  TIFFSetField(m_Tiff, TIFFTAG_SOFTWARE, Software);
   TIFFSetField(m_Tiff, TIFFTAG_XRESOLUTION, 10.0 / grid.Spacing[0]);
   TIFFSetField(m_Tiff, TIFFTAG_YRESOLUTION, 10.0 / grid.Spacing[1]);
   this->SetTag(TIFFTAG_RESOLUTIONUNIT, RESUNIT_CENTIMETER);
@@ -119,6 +122,21 @@ TiffPageWriter::EndPage()
   if (TIFFWriteDirectory(m_Tiff) != 1)
   {
     m_Tiff.Fail("its header cannot be written; is the disk full?");
+  }
+}
+
+bool
+IsOwnTiff(const std::string & path)
+{
+  try
+  {
+    const TiffHandle tiff(path, "rm", path);
+    const char *     software = nullptr;
+    return TIFFGetField(tiff, TIFFTAG_SOFTWARE, &software) != 0 && std::strcmp(software, Software) == 0;
+  }
+  catch (const std::runtime_error &)
+  {
+    return false;
   }
 }
 

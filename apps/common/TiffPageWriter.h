@@ -49,6 +49,10 @@ private:
 std::string
 MakeImageJText(const ImageDescription & description, std::uint64_t slices);
 
+/** Whether a TIFF file was written by a TiffPageWriter, as its tag for the software says. */
+bool
+IsOwnTiff(const std::string & path);
+
 /** Checks that TIFF can hold an image's pixels and grid, and warns of what is left out.
  * \throw std::runtime_error */
 void

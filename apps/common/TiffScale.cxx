@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TiffScale.h"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 namespace
 {
@@ -15,6 +18,15 @@ GetResolution(TIFF * tiff, std::uint32_t tag)
     return std::nullopt;
   }
   return static_cast<double>(resolution);
+}
+
+/** The shortest number that the digits of a float stand for: libtiff makes one of a ratio. */
+double
+RoundToFloat(double number)
+{
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.7g", number);
+  return std::strtod(text.data(), nullptr);
 }
 
 bool
@@ -61,8 +73,8 @@ CompleteTiffSpacing(TiffStack & stack, TIFF * tiff)
   }
   const double millimetres = own ? *own : unit == RESUNIT_CENTIMETER ? 10.0 : unit == RESUNIT_INCH ? 25.4 : 1.0;
   stack.IsInMillimetres = own || unit == RESUNIT_CENTIMETER || unit == RESUNIT_INCH;
-  stack.Spacing[0] = millimetres / *x;
-  stack.Spacing[1] = millimetres / *y;
+  stack.Spacing[0] = RoundToFloat(millimetres / *x);
+  stack.Spacing[1] = RoundToFloat(millimetres / *y);
 }
 
 std::vector<double>

@@ -3,8 +3,11 @@
 
 #include "CommandLine.h"
 #include "Figures.h"
+#include "FileIntegrity.h"
 #include "GridComparison.h"
+#include "LibraryMessages.h"
 #include "OneLineMessage.h"
+#include "WatchedRun.h"
 
 #include "itkMacro.h"
 
@@ -32,10 +35,11 @@ constexpr double LargestShift = 1e-3;
 std::unique_ptr<VolumeReader>
 Open(const std::string & path, const InputOptions & input, const bool isQuiet)
 {
-  auto reader = OpenVolume(path, input, [isQuiet](const std::string & warning) {
+  const WatchedOpening opening(path);
+  auto                 reader = OpenVolume(path, input, [isQuiet](const std::string & warning) {
     if (!isQuiet)
     {
-      std::fprintf(stderr, "CompareVolumes: warning: %s\n", MakeOneLine(warning).c_str());
+      std::fprintf(GetTerminal(), "CompareVolumes: warning: %s\n", MakeOneLine(warning).c_str());
     }
   });
   if (reader->GetDescription().NumberOfComponents != 1)
@@ -65,10 +69,12 @@ CheckGrids(const ImageGrid & reference, const ImageGrid & test, const bool ignor
 void
 Run(const Options & options)
 {
-  const auto reference = Open(options.ReferencePath, options.Reference, options.Quiet);
-  const auto test = Open(options.TestPath, options.Test, options.Quiet);
+  const LibraryMessages messages;
+  const auto            reference = Open(options.ReferencePath, options.Reference, options.Quiet);
+  const auto            test = Open(options.TestPath, options.Test, options.Quiet);
   CheckGrids(reference->GetDescription().Grid, test->GetDescription().Grid, options.IgnoreGeometry);
   const Figures figures = Compare(*reference, *test, options.How);
+  CheckMessages(options.TestPath, messages.GetText());
   PrintResult(options.Json ? ToJson(figures) : ToText(figures));
 }
 
@@ -119,13 +125,11 @@ Describe(CLI::App & app, Options & options)
 int
 Fail(ExitCode code, const std::string & message)
 {
-  std::fprintf(stderr, "CompareVolumes: %s\n", MakeOneLine(message).c_str());
+  std::fprintf(GetTerminal(), "CompareVolumes: %s\n", MakeOneLine(message).c_str());
   return code;
 }
-} // namespace
-
 int
-main(int argc, char * argv[])
+RunProgram(int argc, char * argv[])
 {
   try
   {
@@ -164,4 +168,11 @@ main(int argc, char * argv[])
   {
     return Fail(RunFailed, error.what());
   }
+}
+} // namespace
+
+int
+main(int argc, char * argv[])
+{
+  return RunWatched([&] { return RunProgram(argc, argv); });
 }

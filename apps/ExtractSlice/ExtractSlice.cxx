@@ -5,6 +5,7 @@
 #include "OneLineMessage.h"
 #include "RealVoxels.h"
 #include "VolumeWriter.h"
+#include "WatchedRun.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -51,6 +52,21 @@ ExtractSlice(const std::string & inputPath, const std::string & outputPath)
   writer->Write(box, values.data());
   writer->Commit();
 }
+
+int
+RunProgram(const char * inputPath, const char * outputPath)
+{
+  try
+  {
+    ExtractSlice(inputPath, outputPath);
+    return 0;
+  }
+  catch (const std::exception & error)
+  {
+    std::fprintf(stderr, "ExtractSlice: %s\n", MakeOneLine(error.what()).c_str());
+    return 1;
+  }
+}
 } // namespace
 
 int
@@ -61,14 +77,5 @@ main(int argc, char * argv[])
     std::fprintf(stderr, "Usage: ExtractSlice INPUT OUTPUT\n");
     return 2;
   }
-  try
-  {
-    ExtractSlice(argv[1], argv[2]);
-    return 0;
-  }
-  catch (const std::exception & error)
-  {
-    std::fprintf(stderr, "ExtractSlice: %s\n", MakeOneLine(error.what()).c_str());
-    return 1;
-  }
+  return RunWatched([&] { return RunProgram(argv[1], argv[2]); });
 }

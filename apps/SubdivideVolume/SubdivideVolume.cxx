@@ -3,8 +3,8 @@
 
 #include "CommandLine.h"
 #include "Dicom.h"
+#include "FileIntegrity.h"
 #include "FormatTable.h"
-#include "Interrupt.h"
 #include "LevelChain.h"
 #include "LibraryMessages.h"
 #include "OneLineMessage.h"
@@ -16,6 +16,7 @@
 #include "Summary.h"
 #include "VoxelCounter.h"
 #include "Warnings.h"
+#include "WatchedRun.h"
 
 #include <cstdio>
 #include <new>
@@ -24,13 +25,11 @@
 
 namespace
 {
-[[noreturn]] void
+ExitCode
 Fail(ExitCode code, const std::string & message)
 {
   std::fprintf(GetTerminal(), "SubdivideVolume: %s\n", MakeOneLine(message).c_str());
-  std::fflush(nullptr);
-  // Not by way of the libraries' own ends: after a failed write, HDF5 complains at length there.
-  _exit(code);
+  return code;
 }
 
 Progress::Style
@@ -80,15 +79,26 @@ WarnOfStreams(const Options & options, const VolumeReader & reader, const Volume
   }
 }
 
+/** What libraries warned of. */
+void
+PassOn(const LibraryMessages & messages, Warnings & warnings)
+{
+  for (const std::string & warning : FindLibraryWarnings(messages.GetText()))
+  {
+    warnings.Add(warning);
+  }
+}
+
 void
 Inform(const Options & options)
 {
-  Warnings           warnings(options.Quiet);
-  const unsigned int threads = GetNumberOfThreads(options);
-  const auto         reader = Open(options, warnings);
-  const auto         writer = options.Output.empty() ? nullptr : Create(options, threads, warnings);
-  const LevelChain   chain(reader->GetDescription(), options, threads);
-  const Plan         plan = MakePlan(options, chain, *reader, writer.get(), threads);
+  const LibraryMessages messages;
+  Warnings              warnings(options.Quiet);
+  const unsigned int    threads = GetNumberOfThreads(options);
+  const auto            reader = Open(options, warnings);
+  const auto            writer = options.Output.empty() ? nullptr : Create(options, threads, warnings);
+  const LevelChain      chain(reader->GetDescription(), options, threads);
+  const Plan            plan = MakePlan(options, chain, *reader, writer.get(), threads);
   PrintResult(
     Describe(Forecast{ options, reader->GetDescription(), chain.GetOutput(), plan, warnings.GetAll(), threads }));
 }
@@ -96,17 +106,20 @@ Inform(const Options & options)
 void
 Subdivide(const Options & options)
 {
-  Warnings           warnings(options.Quiet);
-  const unsigned int threads = GetNumberOfThreads(options);
-  const auto         reader = Open(options, warnings);
-  const auto         writer = Create(options, threads, warnings);
-  Progress           progress(GetProgressStyle(options));
-  LevelChain         chain(reader->GetDescription(), options, threads);
-  const Plan         plan = MakePlan(options, chain, *reader, writer.get(), threads);
-  VoxelCounter       counter(chain, reader->GetDescription(), options, threads);
+  const LibraryMessages messages;
+  Warnings              warnings(options.Quiet);
+  const unsigned int    threads = GetNumberOfThreads(options);
+  const auto            reader = Open(options, warnings);
+  const auto            writer = Create(options, threads, warnings);
+  Progress              progress(GetProgressStyle(options));
+  LevelChain            chain(reader->GetDescription(), options, threads);
+  const Plan            plan = MakePlan(options, chain, *reader, writer.get(), threads);
+  VoxelCounter          counter(chain, reader->GetDescription(), options, threads);
   WarnOfStreams(options, *reader, *writer, warnings);
   writer->Begin(chain.GetOutput());
   Pipeline(*reader, chain, *writer, counter, plan).Run(progress);
+  CheckMessages(options.Input, messages.GetText());
+  PassOn(messages, warnings);
   writer->Commit();
   progress.Finish();
   const std::string summary = Describe(Summary{ options,
@@ -146,12 +159,9 @@ Perform(const Options & options)
       return PrintResult(GetSlicerDescription());
   }
 }
-} // namespace
-
 int
-main(int argc, char * argv[])
+RunProgram(int argc, char * argv[])
 {
-  WatchForInterrupts();
   try
   {
     Options                  options;
@@ -164,16 +174,23 @@ main(int argc, char * argv[])
   }
   catch (const UsageError & error)
   {
-    Fail(WrongUsage, std::string(error.what()) + " (see --help)");
+    return Fail(WrongUsage, std::string(error.what()) + " (see --help)");
   }
   catch (const std::bad_alloc &)
   {
-    Fail(RunFailed,
-         "there is not enough memory; try --memory or --streams, with files that are read and written in "
-         "pieces (see --formats)");
+    return Fail(RunFailed,
+                "there is not enough memory; try --memory or --streams, with files that are read and written in pieces "
+                "(see --formats)");
   }
   catch (const std::exception & error)
   {
-    Fail(RunFailed, error.what());
+    return Fail(RunFailed, error.what());
   }
+}
+} // namespace
+
+int
+main(int argc, char * argv[])
+{
+  return RunWatched([&] { return RunProgram(argc, argv); });
 }

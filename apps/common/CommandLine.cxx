@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "CommandLine.h"
 
-#include "RawLayout.h"
+#include "RawReader.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DicomReader.h"
 #include "DicomValues.h"
+#include "WatchedRun.h"
 
 #include "gdcmByteValue.h"
 #include "gdcmImageChangePlanarConfiguration.h"
@@ -51,6 +52,7 @@ InterleavePlanes(const DicomHeader & header, std::vector<char> & bytes)
 std::vector<char>
 Decode(const DicomHeader & header)
 {
+  const WatchedTask  task("cannot read " + header.FileName.string());
   gdcm::PixmapReader reader;
   reader.SetFileName(header.FileName.c_str());
   if (!reader.Read())

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DicomSeries.h"
+#include "WatchedRun.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -75,9 +76,11 @@ DicomSeries::GetNumberOfFrames() const
 std::vector<DicomSeries>
 FindDicomSeries(const std::string & path)
 {
+  const WatchedOpening               opening(path);
   std::map<std::string, DicomSeries> byUid;
   for (const fs::path & file : FindFiles(path))
   {
+    WatchedOpening::Step(file);
     if (auto header = ReadDicomHeader(file))
     {
       byUid[header->SeriesUid].Headers.push_back(std::move(*header));

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Formats.h"
+#include "Dicom.h"
 #include "HeaderText.h"
 #include "InputFile.h"
 #include "ItkReader.h"
 #include "ItkWriter.h"
 #include "PlainReader.h"
 #include "PlainWriter.h"
+#include "RawReader.h"
+#include "RegularInput.h"
+#include "SliceFolder.h"
+#include "SliceFolderWriter.h"
+#include "TiffReader.h"
+#include "TiffWriter.h"
 
 #include <filesystem>
 #include <stdexcept>
@@ -62,7 +69,7 @@ GetVolumeFormats()
     { "PNG", { ".png" }, OpenByItk, Create<ItkWriter>, false, false, true },
     { "JPEG", { ".jpg", ".jpeg" }, OpenByItk, Create<ItkWriter>, false, false, true },
     { "BMP", { ".bmp" }, OpenByItk, Create<ItkWriter>, false, false, false },
-    { "TIFF", { ".tif", ".tiff" }, OpenByItk, Create<ItkWriter>, false, false, true },
+    { "TIFF", { ".tif", ".tiff" }, OpenTiff, CreateTiff, true, true, true },
   };
   return formats;
 }
@@ -84,13 +91,53 @@ FindVolumeFormat(const std::string & path)
   return nullptr;
 }
 
+namespace
+{
+/** A choice that a file does not offer is not passed over. */
+void
+RefuseChoices(const std::string & path, const InputOptions & options)
+{
+  if (!options.Series.empty())
+  {
+    FailToRead(path, "--series chooses among the DICOM series of a folder, and it is none");
+  }
+  if (options.Channel || options.Frame)
+  {
+    FailToRead(path, "--channel and --frame choose among the pages of TIFF files and the images of DICOM series");
+  }
+}
+
+std::unique_ptr<VolumeReader>
+OpenAny(const std::string & path, const InputOptions & options, const WarningSink & warn)
+{
+  if (options.Raw)
+  {
+    return OpenRaw(path, options, warn);
+  }
+  if (std::filesystem::is_directory(path))
+  {
+    return HoldsSlices(path) ? OpenSliceFolder(path, options, warn) : OpenDicom(path, options, warn);
+  }
+  if (IsDicomFile(path))
+  {
+    return OpenDicom(path, options, warn);
+  }
+  const VolumeFormat * const format = FindVolumeFormat(path);
+  if (format != nullptr && format->Reader == OpenTiff)
+  {
+    return OpenTiff(path, options, warn);
+  }
+  RefuseChoices(path, options);
+  return format != nullptr && format->Reader != nullptr ? format->Reader(path, options, warn)
+                                                        : OpenByItk(path, options, warn);
+}
+} // namespace
+
 std::unique_ptr<VolumeReader>
 OpenVolume(const std::string & path, const InputOptions & options, const WarningSink & warn)
 {
-  InputFile{ path }; // says why it cannot be opened
-  const VolumeFormat * const format = FindVolumeFormat(path);
-  auto reader = format != nullptr && format->Reader != nullptr ? format->Reader(path, options, warn)
-                                                               : OpenByItk(path, options, warn);
+  CheckIsRegularInput(path);
+  auto reader = OpenAny(path, options, warn);
   reader->OverrideGrid(path, options, warn);
   return reader;
 }
@@ -98,7 +145,16 @@ OpenVolume(const std::string & path, const InputOptions & options, const Warning
 std::unique_ptr<VolumeWriter>
 CreateVolume(const std::string & path, const OutputOptions & options, const WarningSink & warn)
 {
+  std::error_code            error;
   const VolumeFormat * const format = FindVolumeFormat(path);
+  if (path.back() == '/' || (format == nullptr && std::filesystem::is_directory(path, error)))
+  {
+    return CreateSliceFolder(path, options, warn);
+  }
+  if (HasEnding(ToLower(path), ".dcm"))
+  {
+    RefuseDicomOutput(path);
+  }
   if (format != nullptr && format->Writer != nullptr)
   {
     return format->Writer(path, options, warn);

@@ -2,24 +2,21 @@
 #ifndef Interrupt_h
 #define Interrupt_h
 
+#include "RunRecord.h"
+
 #include <filesystem>
 #include <mutex>
 
-/** Lets a thread wait for the signals that end the program (interrupt, terminate, hang up), so that it can remove the
- * unfinished output first. To be called at the start of the program, before any other thread exists. A file size limit
- * and a closed pipe become errors of the writing function instead of signals. An exception that a library lets escape
- * from where none may ends the program as cleanly. */
-void
-WatchForInterrupts();
+// A run that is watched (WatchedRun.h) is ended by its watcher, which then removes what the run left.
 
 /** While this lock is held, an interrupt waits. */
-using InterruptLock = std::unique_lock<std::mutex>;
+using InterruptLock = std::unique_lock<SharedMutex>;
 
 InterruptLock
 HoldInterrupts();
 
-/** The folder to remove when the program is interrupted, and the output that is written there; empty for none. The lock
- * is the proof that no interrupt comes now. */
+/** The folder to remove when the run is interrupted or dies, and the output that is written there; empty for none. The
+ * lock is the proof that no interrupt comes now. */
 void
 RemoveWhenInterrupted(const InterruptLock &         lock,
                       const std::filesystem::path & folder,

@@ -246,6 +246,7 @@ TEST(Subdivider, FirstIndicesFarFromZero)
   }
   EXPECT_THROW(Subdivider::GetWholeOutput({ { quarter - 19, 20 } }, { true }), std::overflow_error);
   EXPECT_THROW(Subdivider::GetWholeOutput({ { -quarter - 1, 20 } }, { true }), std::overflow_error);
+  EXPECT_THROW(Subdivider::GetWholeOutput({ { 2 * (quarter - 1), 3 } }, { false }), std::overflow_error);
 }
 
 TEST(Subdivider, OneWorkspaceForRunsOfAllKinds)
@@ -336,6 +337,34 @@ TEST(Subdivider, PassesOnWhatABoundaryThrows)
     Subdivide(input, input.GetBox(), output, options, 3, workspace);
     EXPECT_EQ(CountDifferences(output, expected), 0u);
   }
+}
+
+class OutsideSeven final : public OutsideElements
+{
+public:
+  double
+  GetElement(const std::int64_t *) const override
+  {
+    return 7.0;
+  }
+};
+
+/** Whom a custom boundary asks may need all of the array; the run itself needs what it reads. */
+TEST(Subdivider, CustomBoundaryWithAPartOfTheInput)
+{
+  const TestArray whole = MakeInput(ElementType::Float, { { 0, 30 }, { 0, 30 } }, 1);
+  const Box       box{ { 0, 10 }, { 0, 10 } };
+  Options         options = MakeOptions({ true, true });
+  options.Boundary = Boundary::Constant({ 7.0 });
+  const TestArray part = Cut(whole, Subdivider::GetInputRequest(box, whole.GetBox(), options), TestLayout::Dense(2));
+  const TestArray expected = MakeWhole(whole, ElementType::Float, options);
+
+  options.Boundary = Boundary::Custom(std::make_shared<OutsideSeven>());
+  EXPECT_EQ(Subdivider::GetInputRequest(box, whole.GetBox(), options), whole.GetBox());
+  TestArray output(ElementType::Float, box);
+  Workspace workspace;
+  Subdivide(part, whole.GetBox(), output, options, 1, workspace);
+  EXPECT_EQ(CountDifferences(output, expected), 0u);
 }
 
 /** The message of what making a Subdivider throws. */

@@ -50,6 +50,20 @@ public:
     return done;
   }
 
+  /** Reads to the end; returns whether the end of a compressed stream is there, with the checksum of what came before.
+   */
+  bool
+  EndsWell()
+  {
+    std::vector<char> buffer(1 << 18);
+    while (this->Read(buffer.data(), buffer.size()) > 0)
+    {
+    }
+    int error = Z_OK;
+    gzerror(m_File.get(), &error);
+    return error == Z_OK || error == Z_STREAM_END;
+  }
+
 private:
   std::unique_ptr<gzFile_s, int (*)(gzFile)> m_File;
 };
@@ -61,6 +75,15 @@ CheckBytes(const std::string & path, std::uint64_t available, std::uint64_t expe
   {
     throw std::runtime_error("cannot read " + path + ": it is truncated, with " + std::to_string(available) + " of " +
                              std::to_string(expected) + " bytes");
+  }
+}
+
+void
+CheckEnd(const std::string & path, Bytes & bytes)
+{
+  if (!bytes.EndsWell())
+  {
+    throw std::runtime_error("cannot read " + path + ": its compressed data is truncated or damaged");
   }
 }
 
@@ -117,6 +140,7 @@ CheckNifti(const std::string & path)
   {
     constexpr std::uint64_t extension = 4; // the least that lies between the header and the voxels
     CheckBytes(path, bytes.Skip(extension + header.GetDataBytes()), extension + header.GetDataBytes());
+    CheckEnd(path, bytes);
   }
 }
 
@@ -125,7 +149,9 @@ CheckGipl(const std::string & path, const itk::ImageIOBase & imageIO)
 {
   constexpr std::uint64_t header = 256;
   const std::uint64_t     expected = header + static_cast<std::uint64_t>(imageIO.GetImageSizeInBytes());
-  CheckBytes(path, Bytes(path).Skip(expected), expected);
+  Bytes                   bytes(path);
+  CheckBytes(path, bytes.Skip(expected), expected);
+  CheckEnd(path, bytes);
 }
 
 /** Reads the last voxel alone: reading regions, these formats do tell if there is nothing. */

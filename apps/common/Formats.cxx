@@ -145,8 +145,9 @@ OpenVolume(const std::string & path, const InputOptions & options, const Warning
 std::unique_ptr<VolumeWriter>
 CreateVolume(const std::string & path, const OutputOptions & options, const WarningSink & warn)
 {
-  std::error_code error;
-  if (path.back() == '/' || std::filesystem::is_directory(path, error))
+  std::error_code            error;
+  const VolumeFormat * const format = FindVolumeFormat(path);
+  if (path.back() == '/' || (format == nullptr && std::filesystem::is_directory(path, error)))
   {
     return CreateSliceFolder(path, options, warn);
   }
@@ -154,7 +155,6 @@ CreateVolume(const std::string & path, const OutputOptions & options, const Warn
   {
     RefuseDicomOutput(path);
   }
-  const VolumeFormat * const format = FindVolumeFormat(path);
   if (format != nullptr && format->Writer != nullptr)
   {
     return format->Writer(path, options, warn);

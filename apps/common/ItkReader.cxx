@@ -10,6 +10,7 @@
 #include "itkImageFileReader.h" // registers the formats
 #include "itkMetaDataObject.h"
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 
@@ -97,6 +98,26 @@ ReadsRegions(const itk::ImageIOBase & imageIO)
   return const_cast<itk::ImageIOBase &>(imageIO).CanStreamRead() && !isVectorNifti;
 }
 
+/** A reader for the format that a name's ending says; ITK itself knows some endings in small letters only. */
+itk::ImageIOBase::Pointer
+FindByEnding(const std::string & path)
+{
+  const std::string ending = ToLower(std::filesystem::path(path).extension().string());
+  for (const auto & object : itk::ObjectFactoryBase::CreateAllInstance("itkImageIOBase"))
+  {
+    auto * const imageIO = dynamic_cast<itk::ImageIOBase *>(object.GetPointer());
+    if (imageIO != nullptr)
+    {
+      const auto & known = imageIO->GetSupportedReadExtensions();
+      if (std::find(known.begin(), known.end(), ending) != known.end())
+      {
+        return imageIO;
+      }
+    }
+  }
+  return nullptr;
+}
+
 bool
 IsWhole(const std::vector<std::uint64_t> & size, const Box & box)
 {
@@ -123,6 +144,11 @@ ItkReader::ItkReader(const std::string & path)
 {
   InputFile{ path }; // says why it cannot be opened, and keeps pipes from being waited for
   m_ImageIO = itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::IOFileModeEnum::ReadMode);
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (m_ImageIO.IsNull() && ending != ToLower(ending))
+  {
+    m_ImageIO = FindByEnding(path);
+  }
   if (m_ImageIO.IsNull())
   {
     FailToRead(path, "it is in none of the known image formats");

@@ -176,7 +176,7 @@ private:
 };
 
 ElementType
-GetType(const std::string & name)
+GetType(const std::string & path, const std::string & name)
 {
   for (const auto & [known, type] : Types)
   {
@@ -185,7 +185,11 @@ GetType(const std::string & name)
       return type;
     }
   }
-  throw HeaderNotUnderstood("the element type " + name);
+  if (name == "MET_LONG" || name == "MET_ULONG")
+  {
+    throw HeaderNotUnderstood("an element type whose size depends on who wrote it");
+  }
+  FailToRead(path, "voxels of the type '" + name + "' are not supported");
 }
 
 ImageGrid
@@ -330,7 +334,7 @@ ReadMetaHeader(const std::string & path)
   {
     throw HeaderNotUnderstood("voxels as text");
   }
-  description.Component = GetType(fields.Get("ElementType"));
+  description.Component = GetType(path, fields.Get("ElementType"));
   CheckDescription(path, description);
   for (const auto & [key, value] : fields.GetAll())
   {

@@ -151,10 +151,19 @@ TemporaryFolder::Make(const fs::path & folder)
 
 TemporaryFolder::~TemporaryFolder()
 {
+  if (!m_Folder.empty())
+  {
+    this->Remove(HoldInterrupts());
+  }
+}
+
+void
+TemporaryFolder::Remove(const InterruptLock & lock)
+{
   std::error_code error;
-  const auto      lock = HoldInterrupts();
   fs::remove_all(m_Folder, error);
   RemoveWhenInterrupted(lock, {}, {});
+  m_Folder.clear();
 }
 
 fs::path
@@ -238,4 +247,5 @@ TemporaryFolder::Commit()
       fs::rename(m_Folder / name, target / name);
     }
   }
+  this->Remove(lock);
 }

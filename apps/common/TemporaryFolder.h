@@ -3,6 +3,7 @@
 #define TemporaryFolder_h
 
 #include "ImageDescription.h"
+#include "Interrupt.h"
 
 #include <filesystem>
 #include <set>
@@ -58,6 +59,8 @@ private:
   /** Returns false, with the reason in errno, if it cannot be made there. */
   bool
   Make(const std::filesystem::path & folder);
+  void
+  Remove(const InterruptLock & lock);
 
   std::filesystem::path m_Output;
   std::filesystem::path m_Folder;

@@ -10,7 +10,7 @@ repository=$(cd "$(dirname "$0")/.." && pwd)
 declare -A packages=(
   [build]="cmake g++ libcli11-dev libgdcm-tools libhwy-dev libinsighttoolkit5-dev ninja-build"
   [sample]="invesalius-examples python3-matplotlib python3-numpy"
-  [test]="castxml libgtest-dev python3"
+  [test]="castxml libgtest-dev python3 python3-dev python3-venv"
   [benchmark]="libbenchmark-dev python3"
   [experiments]="$(tr '\n' ' ' < "$repository/experiments/debian-packages.txt")"
 )

@@ -134,9 +134,9 @@ def subdivide(
     (4,)
     """
     if not isinstance(volume, np.ndarray):
-        options = {"scheme": scheme, "tension": tension, "boundary": boundary, "dtype": dtype}
-        place = {"axes": axes, "levels": levels, "channel_axis": channel_axis}
-        in_memory = {"threads": threads, "progress": progress}
+        options: dict[str, Any] = {"scheme": scheme, "tension": tension, "boundary": boundary, "dtype": dtype}
+        place: dict[str, Any] = {"axes": axes, "levels": levels, "channel_axis": channel_axis}
+        in_memory: dict[str, Any] = {"threads": threads, "progress": progress}
         if images.is_dask_array(volume):
             from . import dask
 

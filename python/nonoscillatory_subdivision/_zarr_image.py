@@ -76,7 +76,7 @@ def open_image(path: str) -> Image:
 def create_array(path: str, image: Image, axes: Sequence[int], levels: int, chunks: Sequence[int] | None) -> Any:
     """An empty array for the result, like that of the image in all but its shape; chunks, if any are given."""
     source = image.array
-    dtype = _arguments.result_type(source, None, None)
+    dtype = _arguments.result_type(source.dtype, None)
     same_type = dtype == source.dtype.newbyteorder("=")
     metadata = source.metadata
     options: dict[str, Any] = {}

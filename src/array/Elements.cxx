@@ -10,6 +10,15 @@ namespace Subdivision
 namespace
 {
 
+template <typename TElement>
+TElement
+Load(const unsigned char * const memory)
+{
+  TElement element;
+  std::memcpy(&element, memory, sizeof(element));
+  return element;
+}
+
 template <std::size_t VBytes>
 void
 CopyElementsOf(const unsigned char * from,
@@ -36,11 +45,27 @@ Gather(const ElementType     type,
        TReal *               values)
 {
   WithElementType(type, [=](const auto tag) {
-    typename decltype(tag)::Type element;
+    using Element = typename decltype(tag)::Type;
     for (std::size_t i = 0; i < count; ++i)
     {
-      std::memcpy(&element, elements + static_cast<std::ptrdiff_t>(i) * step, sizeof(element));
-      values[i] = static_cast<TReal>(element);
+      values[i] = static_cast<TReal>(Load<Element>(elements + static_cast<std::ptrdiff_t>(i) * step));
+    }
+  });
+}
+
+template <typename TReal>
+void
+GatherAt(const ElementType                   type,
+         const unsigned char *               elements,
+         const std::vector<std::ptrdiff_t> & offsets,
+         TReal *                             values)
+{
+  WithElementType(type, [&offsets, elements, values](const auto tag) {
+    using Element = typename decltype(tag)::Type;
+    TReal * value = values;
+    for (const std::ptrdiff_t offset : offsets)
+    {
+      *value++ = static_cast<TReal>(Load<Element>(elements + offset));
     }
   });
 }
@@ -76,6 +101,11 @@ template void
 Gather(ElementType, const unsigned char *, std::ptrdiff_t, std::size_t, float *);
 template void
 Gather(ElementType, const unsigned char *, std::ptrdiff_t, std::size_t, double *);
+
+template void
+GatherAt(ElementType, const unsigned char *, const std::vector<std::ptrdiff_t> &, float *);
+template void
+GatherAt(ElementType, const unsigned char *, const std::vector<std::ptrdiff_t> &, double *);
 
 } // namespace Subdivision
 } // namespace itk

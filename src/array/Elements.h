@@ -5,6 +5,7 @@
 #include "NonOscillatorySubdivision/ElementType.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace itk
 {
@@ -17,6 +18,11 @@ namespace Subdivision
 template <typename TReal>
 void
 Gather(ElementType type, const unsigned char * elements, std::ptrdiff_t step, std::size_t count, TReal * values);
+
+/** Makes a real value of each element at an offset in bytes. */
+template <typename TReal>
+void
+GatherAt(ElementType type, const unsigned char * elements, const std::vector<std::ptrdiff_t> & offsets, TReal * values);
 
 /** Copies elements of the given number of bytes as they are. */
 void
@@ -31,6 +37,11 @@ extern template void
 Gather(ElementType, const unsigned char *, std::ptrdiff_t, std::size_t, float *);
 extern template void
 Gather(ElementType, const unsigned char *, std::ptrdiff_t, std::size_t, double *);
+
+extern template void
+GatherAt(ElementType, const unsigned char *, const std::vector<std::ptrdiff_t> &, float *);
+extern template void
+GatherAt(ElementType, const unsigned char *, const std::vector<std::ptrdiff_t> &, double *);
 
 } // namespace Subdivision
 } // namespace itk

@@ -22,13 +22,15 @@ RowReader<TReal>::RowReader(const RunPlan & plan, const TileAxes & axes, const B
   const auto end = [](const Interval & interval) { return interval.First + static_cast<std::int64_t>(interval.Size); };
   m_Inside.Begin = std::max({ m_Row.Begin, x.Stencil.First, x.Whole.First });
   m_Inside.End = std::min({ m_Row.End, end(x.Stencil), end(x.Whole) });
+  m_XBefore = this->FindEndOffsets({ m_Row.Begin, m_Inside.Begin });
+  m_XAfter = this->FindEndOffsets({ m_Inside.End, m_Row.End });
   if (axes.HasY())
   {
-    m_YOffsets = this->FindOffsets(axes.Y);
+    m_YOffsets = this->FindOffsets(axes.Y, this->WithHalo(axes.Y));
   }
   if (axes.HasZ())
   {
-    m_ZOffsets = this->FindOffsets(axes.Z);
+    m_ZOffsets = this->FindOffsets(axes.Z, this->WithHalo(axes.Z));
   }
 }
 
@@ -43,9 +45,10 @@ RowReader<TReal>::WithHalo(const std::size_t axis) const -> Range
 
 template <typename TReal>
 std::ptrdiff_t
-RowReader<TReal>::FindOffset(const RunAxis & axis, const std::int64_t position) const
+RowReader<TReal>::FindOffset(const std::size_t number, const std::int64_t position) const
 {
-  const auto isIn = [position](const Interval & interval) {
+  const RunAxis & axis = m_Plan.Axes[number];
+  const auto      isIn = [position](const Interval & interval) {
     return position >= interval.First && position - interval.First < static_cast<std::int64_t>(interval.Size);
   };
   if (!isIn(axis.Stencil))
@@ -67,14 +70,28 @@ RowReader<TReal>::FindOffset(const RunAxis & axis, const std::int64_t position) 
 
 template <typename TReal>
 auto
-RowReader<TReal>::FindOffsets(const std::size_t axis) const -> Offsets
+RowReader<TReal>::FindOffsets(const std::size_t axis, const Range & range) const -> Offsets
 {
-  const Range range = this->WithHalo(axis);
-  Offsets     offsets{ range.Begin, {} };
+  Offsets offsets{ range, {} };
   offsets.Values.reserve(static_cast<std::size_t>(range.End - range.Begin));
   for (std::int64_t position = range.Begin; position < range.End; ++position)
   {
-    offsets.Values.push_back(this->FindOffset(m_Plan.Axes[axis], position));
+    offsets.Values.push_back(this->FindOffset(axis, position));
+  }
+  return offsets;
+}
+
+template <typename TReal>
+auto
+RowReader<TReal>::FindEndOffsets(const Range & range) const -> Offsets
+{
+  Offsets offsets = this->FindOffsets(m_Axes.X, range);
+  if (m_Plan.Boundary.MapsIndices())
+  {
+    std::replace(offsets.Values.begin(),
+                 offsets.Values.end(),
+                 NotNeeded,
+                 static_cast<std::ptrdiff_t>(m_Inside.Begin * m_Plan.Axes[m_Axes.X].InputStep));
   }
   return offsets;
 }
@@ -119,8 +136,8 @@ RowReader<TReal>::ReadRow(const std::ptrdiff_t y, const std::ptrdiff_t z, TReal 
   }
   const unsigned char * const row = m_Image + yOffset + zOffset;
   this->ReadInside(row, values);
-  this->ReadOutside(row, { m_Row.Begin, m_Inside.Begin }, values);
-  this->ReadOutside(row, { m_Inside.End, m_Row.End }, values);
+  this->ReadEnd(row, m_XBefore, values);
+  this->ReadEnd(row, m_XAfter, values);
 }
 
 template <typename TReal>
@@ -143,24 +160,17 @@ RowReader<TReal>::ReadInside(const unsigned char * const row, TReal * const valu
 
 template <typename TReal>
 void
-RowReader<TReal>::ReadOutside(const unsigned char * const row, const Range & range, TReal * const values)
+RowReader<TReal>::ReadEnd(const unsigned char * const row, const Offsets & end, TReal * const values)
 {
-  for (std::int64_t x = range.Begin; x < range.End; ++x)
+  TReal * const outside = values + (end.Positions.Begin - m_Row.Begin);
+  if (m_Plan.Boundary.MapsIndices())
   {
-    const std::ptrdiff_t offset = this->FindOffset(m_Plan.Axes[m_Axes.X], x);
-    TReal &              value = values[x - m_Row.Begin];
-    if (offset == NotNeeded)
-    {
-      value = TReal{ 0 };
-    }
-    else if (offset == AskBoundary)
-    {
-      value = this->GetOutsideValue(x);
-    }
-    else
-    {
-      Gather(m_Plan.InputType, row + offset, 0, 1, &value);
-    }
+    GatherAt(m_Plan.InputType, row, end.Values, outside);
+    return;
+  }
+  for (std::int64_t x = end.Positions.Begin; x < end.Positions.End; ++x)
+  {
+    outside[x - end.Positions.Begin] = end[x] == AskBoundary ? this->GetOutsideValue(x) : TReal{ 0 };
   }
 }
 

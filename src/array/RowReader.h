@@ -39,39 +39,44 @@ private:
     std::int64_t End;
   };
 
-  /** What stands at some positions along an axis. */
+  /** What stands at some positions along an axis: offsets in bytes from position 0, or one of two marks. */
   struct Offsets
   {
-    std::int64_t                First{ 0 };
+    Range                       Positions{ 0, 0 };
     std::vector<std::ptrdiff_t> Values;
 
     std::ptrdiff_t
     operator[](const std::int64_t position) const
     {
-      return Values[static_cast<std::size_t>(position - First)];
+      return Values[static_cast<std::size_t>(position - Positions.Begin)];
     }
   };
 
-  /** Offsets are in bytes from position 0; these two are marks: the element is of no use, or lies outside and follows
-   * no rule of indices. */
+  /** The element is of no use. */
   static constexpr std::ptrdiff_t NotNeeded = std::numeric_limits<std::ptrdiff_t>::max();
+  /** It lies outside and follows no rule of indices. */
   static constexpr std::ptrdiff_t AskBoundary = NotNeeded - 1;
 
   Range
   WithHalo(std::size_t axis) const;
 
   std::ptrdiff_t
-  FindOffset(const RunAxis & axis, std::int64_t position) const;
+  FindOffset(std::size_t axis, std::int64_t position) const;
 
   Offsets
-  FindOffsets(std::size_t axis) const;
+  FindOffsets(std::size_t axis, const Range & range) const;
+
+  /** The offsets beyond one end of the inside of a row. Where the boundary maps indices there are no marks: any element
+   * does where none is needed. */
+  Offsets
+  FindEndOffsets(const Range & range) const;
 
   void
   ReadInside(const unsigned char * row, TReal * values) const;
 
-  /** Reads element by element what lies beyond the inside of a row, whose position 0 is at \c row. */
+  /** Reads what lies beyond one end of the inside of a row, whose position 0 is at \c row. */
   void
-  ReadOutside(const unsigned char * row, const Range & range, TReal * values);
+  ReadEnd(const unsigned char * row, const Offsets & end, TReal * values);
 
   /** Reads a row that lies outside. */
   void
@@ -92,6 +97,8 @@ private:
   /** The row with its halo, and the part of it that is needed and inside the array. */
   Range   m_Row;
   Range   m_Inside;
+  Offsets m_XBefore;
+  Offsets m_XAfter;
   Offsets m_YOffsets;
   Offsets m_ZOffsets;
 

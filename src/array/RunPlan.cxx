@@ -146,5 +146,29 @@ RunPlan::GetSubdividedAxes() const
   return flags;
 }
 
+Tiling
+RunPlan::MakeTiling(const unsigned int threads) const
+{
+  Sizes parents;
+  Flags subdivided;
+  for (std::size_t axis = 0; axis < CutAxes; ++axis)
+  {
+    parents.push_back(Axes[axis].Parents);
+    subdivided.push_back(Axes[axis].IsSubdivided);
+  }
+  return Tiling(parents, subdivided, Radius, threads);
+}
+
+Box
+RunPlan::GetTile(const Tiling & tiling, const std::size_t number) const
+{
+  Box tile = tiling.GetTile(number);
+  for (std::size_t axis = CutAxes; axis < Axes.size(); ++axis)
+  {
+    tile.push_back({ 0, Axes[axis].Parents });
+  }
+  return tile;
+}
+
 } // namespace Subdivision
 } // namespace itk

@@ -75,6 +75,20 @@ struct RunPlan
 
   Flags
   GetSubdividedAxes() const;
+
+  bool
+  ComputesInDouble() const
+  {
+    return NeedsDouble(InputType) || NeedsDouble(OutputType);
+  }
+
+  /** The tiles, along the axes that they are cut along. */
+  Tiling
+  MakeTiling(unsigned int threads) const;
+
+  /** The tile of that number, along all axes. */
+  Box
+  GetTile(const Tiling & tiling, std::size_t number) const;
 };
 
 } // namespace Subdivision

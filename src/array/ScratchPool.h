@@ -41,12 +41,20 @@ struct Scratch
 {
   explicit Scratch(const KernelSettings & settings)
     : Settings(settings)
-    , Kernel(*settings.Scheme, settings.Tension, settings.Subdivided, settings.Largest, *settings.Target)
-  {}
+  {
+    if (settings.Subdivided.X || settings.Subdivided.Y || settings.Subdivided.Z)
+    {
+      Kernel = std::make_unique<Subdivision::Kernel<TReal>>(
+        *settings.Scheme, settings.Tension, settings.Subdivided, settings.Largest, *settings.Target);
+    }
+  }
 
-  KernelSettings             Settings;
-  Subdivision::Kernel<TReal> Kernel;
-  std::vector<unsigned char> Row;
+  KernelSettings Settings;
+  /** Null where no axis is subdivided. */
+  std::unique_ptr<Subdivision::Kernel<TReal>> Kernel;
+  /** A row as elements and, without a kernel, as real values. */
+  std::vector<unsigned char> Elements;
+  std::vector<TReal>         Values;
 };
 
 /** \brief Keeps what no thread uses at the moment: as much as threads once used, so that each allocates once, even if
@@ -102,18 +110,30 @@ private:
   Pointer
   Take()
   {
+    Pointer scratch = this->TakeIdle();
+    if (!scratch)
     {
+      scratch = std::make_unique<Scratch<TReal>>(m_Settings);
       const std::lock_guard<std::mutex> lock(m_Mutex);
-      if (!m_Idle.empty())
-      {
-        Pointer scratch = std::move(m_Idle.back());
-        m_Idle.pop_back();
-        return scratch;
-      }
-      // Giving it back must not throw.
-      m_Idle.reserve(++m_Number);
+      // Giving back must not throw: there is room for all that is idle or lent.
+      m_Idle.reserve(m_Idle.size() + m_Lent + 1);
+      ++m_Lent;
     }
-    return std::make_unique<Scratch<TReal>>(m_Settings);
+    return scratch;
+  }
+
+  Pointer
+  TakeIdle()
+  {
+    const std::lock_guard<std::mutex> lock(m_Mutex);
+    if (m_Idle.empty())
+    {
+      return nullptr;
+    }
+    Pointer scratch = std::move(m_Idle.back());
+    m_Idle.pop_back();
+    ++m_Lent;
+    return scratch;
   }
 
   void
@@ -121,11 +141,12 @@ private:
   {
     const std::lock_guard<std::mutex> lock(m_Mutex);
     m_Idle.push_back(std::move(scratch));
+    --m_Lent;
   }
 
   KernelSettings       m_Settings{};
   std::vector<Pointer> m_Idle;
-  std::size_t          m_Number{ 0 };
+  std::size_t          m_Lent{ 0 };
   std::mutex           m_Mutex;
 };
 

@@ -10,7 +10,7 @@
 #include "array/RunPlan.h"
 #include "array/ScratchPool.h"
 
-#include <type_traits>
+#include <string>
 
 namespace itk
 {
@@ -18,37 +18,6 @@ namespace Subdivision
 {
 namespace
 {
-
-bool
-ComputesInDouble(const RunPlan & plan)
-{
-  return NeedsDouble(plan.InputType) || NeedsDouble(plan.OutputType);
-}
-
-/** Tiles are cut along the first axes of a plan; along the others they are whole. */
-Tiling
-MakeTiling(const RunPlan & plan, const unsigned int threads)
-{
-  Sizes parents;
-  for (std::size_t axis = 0; axis < plan.CutAxes; ++axis)
-  {
-    parents.push_back(plan.Axes[axis].Parents);
-  }
-  Flags subdivided = plan.GetSubdividedAxes();
-  subdivided.resize(plan.CutAxes);
-  return Tiling(parents, subdivided, plan.Radius, threads);
-}
-
-Box
-GetTile(const RunPlan & plan, const Tiling & tiling, const std::size_t number)
-{
-  Box tile = tiling.GetTile(number);
-  for (std::size_t axis = plan.CutAxes; axis < plan.Axes.size(); ++axis)
-  {
-    tile.push_back({ 0, plan.Axes[axis].Parents });
-  }
-  return tile;
-}
 
 /** The size along the axes of a tile, 1 along those that it lacks. */
 template <typename TGetSize>
@@ -61,32 +30,6 @@ GetTileSize(const TileAxes & axes, const TGetSize & getSize)
   return { sizeOf(axes.X), sizeOf(axes.Y), sizeOf(axes.Z) };
 }
 
-/** Calls \c visit with each position along the axes that are not those of tiles. */
-template <typename TVisitor>
-void
-ForEachImage(const TileAxes & axes, const Box & tile, const TVisitor & visit)
-{
-  std::vector<std::int64_t> position;
-  for (const Interval & interval : tile)
-  {
-    position.push_back(interval.First);
-  }
-  std::size_t axis = 0;
-  while (axis < tile.size())
-  {
-    visit(position);
-    for (axis = 0; axis < tile.size(); ++axis)
-    {
-      const auto end = tile[axis].First + static_cast<std::int64_t>(tile[axis].Size);
-      if (!axes.Has(axis) && ++position[axis] < end)
-      {
-        break;
-      }
-      position[axis] = tile[axis].First;
-    }
-  }
-}
-
 } // namespace
 
 TileMonitor::~TileMonitor() = default;
@@ -95,28 +38,6 @@ struct Workspace::Implementation
 {
   ScratchPool<float>  Float;
   ScratchPool<double> Double;
-
-  template <typename TReal>
-  ScratchPool<TReal> &
-  Get()
-  {
-    if constexpr (std::is_same<TReal, float>::value)
-    {
-      return Float;
-    }
-    else
-    {
-      return Double;
-    }
-  }
-
-  /** What is not needed is not kept. */
-  void
-  Prepare(const KernelSettings & settings, const bool isDouble)
-  {
-    isDouble ? Double.Prepare(settings) : Float.Prepare(settings);
-    isDouble ? Float.Clear() : Double.Clear();
-  }
 };
 
 Workspace::Workspace()
@@ -127,75 +48,95 @@ Workspace::~Workspace() = default;
 
 struct Subdivider::Implementation
 {
-  RunPlan                     Plan;
-  TileAxes                    Axes;
-  Subdivision::Tiling         Tiling;
-  Workspace::Implementation & Scratch;
-  /** Computes a tile. */
-  void (Implementation::*Compute)(const Box &, TileMonitor &) const;
+  RunPlan               Plan;
+  TileAxes              Axes;
+  Tiling                Tiles;
+  ScratchPool<float> &  FloatScratch;
+  ScratchPool<double> & DoubleScratch;
 
-  Implementation(const RunPlan & plan, const unsigned int threads, Workspace::Implementation & scratch)
+  Implementation(const RunPlan & plan, const Options & options, unsigned int threads, Workspace::Implementation & work)
     : Plan(plan)
     , Axes(plan.GetSubdividedAxes())
-    , Tiling(MakeTiling(plan, threads))
-    , Scratch(scratch)
-  {}
-
-  void
-  Prepare(const Options & options)
+    , Tiles(plan.MakeTiling(threads))
+    , FloatScratch(work.Float)
+    , DoubleScratch(work.Double)
   {
-    const bool isDouble = ComputesInDouble(Plan);
-    const auto isSubdivided = [this](std::size_t axis) {
-      return axis != TileAxes::None && Plan.Axes[axis].IsSubdivided;
-    };
-    const Subdivision::Axes subdivided = { isSubdivided(Axes.X), isSubdivided(Axes.Y), isSubdivided(Axes.Z) };
-    if (subdivided.X || subdivided.Z)
+    // What this run has no use for is not kept.
+    const KernelSettings settings = this->MakeKernelSettings(options);
+    FloatScratch.Prepare(settings);
+    DoubleScratch.Prepare(settings);
+    if (Plan.ComputesInDouble())
     {
-      const auto getSize = [this](const std::size_t axis) { return Tiling.GetTileSize()[axis]; };
-      Scratch.Prepare({ &GetScheme(options), options.Tension, subdivided, GetTileSize(Axes, getSize), Plan.Target },
-                      isDouble);
-      Compute = isDouble ? &Implementation::SubdivideTile<double> : &Implementation::SubdivideTile<float>;
-    }
-    else if (Plan.InputType == Plan.OutputType)
-    {
-      Compute = &Implementation::CopyTile;
+      FloatScratch.Clear();
     }
     else
     {
-      Compute = isDouble ? &Implementation::ConvertTile<double> : &Implementation::ConvertTile<float>;
+      DoubleScratch.Clear();
     }
   }
 
-  template <typename TReal>
-  void
-  SubdivideTile(const Box & tile, TileMonitor & monitor) const
+  bool
+  IsSubdivided(const std::size_t axis) const
   {
-    const typename ScratchPool<TReal>::Loan scratch(Scratch.Get<TReal>());
-    RowReader<TReal>                        reader(Plan, Axes, tile);
-    RowWriter<TReal>                        writer(Plan, Axes, tile, monitor, scratch->Row);
-    const TileSize size = GetTileSize(Axes, [&tile](const std::size_t axis) { return tile[axis].Size; });
-    ForEachImage(Axes, tile, [&](const std::vector<std::int64_t> & position) {
-      reader.SetImage(position);
-      writer.SetImage(position);
-      scratch->Kernel.Subdivide(size, reader, writer);
-    });
+    return axis != TileAxes::None && Plan.Axes[axis].IsSubdivided;
   }
 
-  /** A tile of which no axis is subdivided, from type to type. */
+  bool
+  IsSubdivided() const
+  {
+    return this->IsSubdivided(Axes.X) || this->IsSubdivided(Axes.Z);
+  }
+
+  KernelSettings
+  MakeKernelSettings(const Options & options) const
+  {
+    const TileSize largest = GetTileSize(Axes, [this](const std::size_t axis) { return Tiles.GetTileSize()[axis]; });
+    return { &GetScheme(options),
+             options.Tension,
+             { this->IsSubdivided(Axes.X), this->IsSubdivided(Axes.Y), this->IsSubdivided(Axes.Z) },
+             largest,
+             Plan.Target };
+  }
+
+  void
+  ComputeTile(const Box & tile, TileMonitor & monitor)
+  {
+    if (!this->IsSubdivided() && Plan.InputType == Plan.OutputType)
+    {
+      this->CopyTile(tile, monitor);
+    }
+    else if (Plan.ComputesInDouble())
+    {
+      this->ComputeTileIn(DoubleScratch, tile, monitor);
+    }
+    else
+    {
+      this->ComputeTileIn(FloatScratch, tile, monitor);
+    }
+  }
+
+  /** A tile that is computed with real values: subdivided or, along no axis, from type to type. */
   template <typename TReal>
   void
-  ConvertTile(const Box & tile, TileMonitor & monitor) const
+  ComputeTileIn(ScratchPool<TReal> & pool, const Box & tile, TileMonitor & monitor) const
   {
-    std::vector<unsigned char> buffer;
-    std::vector<TReal>         row(tile[Axes.X].Size);
-    RowReader<TReal>           reader(Plan, Axes, tile);
-    RowWriter<TReal>           writer(Plan, Axes, tile, monitor, buffer);
-    const ChildRow<TReal>      elements(row.data(), row.size(), false, *Plan.Target);
-    ForEachImage(Axes, tile, [&](const std::vector<std::int64_t> & position) {
+    const typename ScratchPool<TReal>::Loan scratch(pool);
+    RowReader<TReal>                        reader(Plan, Axes, tile);
+    RowWriter<TReal>                        writer(Plan, Axes, tile, monitor, scratch->Elements);
+    const TileSize size = GetTileSize(Axes, [&tile](const std::size_t axis) { return tile[axis].Size; });
+    Axes.ForEachImage(tile, [&](const std::vector<std::int64_t> & position) {
       reader.SetImage(position);
       writer.SetImage(position);
-      reader.ReadRow(0, 0, row.data());
-      writer.WriteRow(0, 0, elements);
+      if (scratch->Kernel)
+      {
+        scratch->Kernel->Subdivide(size, reader, writer);
+      }
+      else
+      {
+        scratch->Values.resize(size.X);
+        reader.ReadRow(0, 0, scratch->Values.data());
+        writer.WriteRow(0, 0, ChildRow<TReal>(scratch->Values.data(), size.X, false, *Plan.Target));
+      }
     });
   }
 
@@ -203,7 +144,7 @@ struct Subdivider::Implementation
   void
   CopyTile(const Box & tile, TileMonitor & monitor) const
   {
-    ForEachImage(Axes, tile, [&](const std::vector<std::int64_t> & position) {
+    Axes.ForEachImage(tile, [&](const std::vector<std::int64_t> & position) {
       const unsigned char * from = Plan.Input;
       unsigned char *       to = Plan.Output;
       for (std::size_t axis = 0; axis < position.size(); ++axis)
@@ -228,8 +169,7 @@ Subdivider::Subdivider(const ConstArrayView & input,
 {
   CheckArguments(input, whole, output, options);
   const RunPlan plan(input, whole, output, options);
-  m_Implementation = std::make_unique<Implementation>(plan, threads, *workspace.m_Implementation);
-  m_Implementation->Prepare(options);
+  m_Implementation = std::make_unique<Implementation>(plan, options, threads, *workspace.m_Implementation);
 }
 
 Subdivider::~Subdivider() = default;
@@ -272,7 +212,7 @@ Subdivider::GetWholeOutput(const Box & whole, const Flags & subdivided)
 std::size_t
 Subdivider::GetNumberOfTiles() const
 {
-  return m_Implementation->Tiling.GetNumberOfTiles();
+  return m_Implementation->Tiles.GetNumberOfTiles();
 }
 
 void
@@ -280,8 +220,7 @@ Subdivider::ComputeTile(const std::size_t number, TileMonitor & monitor)
 {
   if (!monitor.IsStopped())
   {
-    const Implementation & run = *m_Implementation;
-    (run.*run.Compute)(GetTile(run.Plan, run.Tiling, number), monitor);
+    m_Implementation->ComputeTile(m_Implementation->Plan.GetTile(m_Implementation->Tiles, number), monitor);
   }
 }
 

@@ -45,6 +45,31 @@ struct TileAxes
   {
     return axis == X || axis == Y || axis == Z;
   }
+
+  /** Calls \c visit with each position of a box along the axes that are not x, y or z, and the first along those. */
+  template <typename TVisitor>
+  void
+  ForEachImage(const Box & box, const TVisitor & visit) const
+  {
+    std::vector<std::int64_t> position;
+    for (const Interval & interval : box)
+    {
+      position.push_back(interval.First);
+    }
+    std::size_t axis = 0;
+    while (axis < box.size())
+    {
+      visit(position);
+      for (axis = 0; axis < box.size(); ++axis)
+      {
+        if (!this->Has(axis) && ++position[axis] < box[axis].First + static_cast<std::int64_t>(box[axis].Size))
+        {
+          break;
+        }
+        position[axis] = box[axis].First;
+      }
+    }
+  }
 };
 
 } // namespace Subdivision

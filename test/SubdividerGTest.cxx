@@ -246,6 +246,7 @@ TEST(Subdivider, FirstIndicesFarFromZero)
   }
   EXPECT_THROW(Subdivider::GetWholeOutput({ { quarter - 19, 20 } }, { true }), std::overflow_error);
   EXPECT_THROW(Subdivider::GetWholeOutput({ { -quarter - 1, 20 } }, { true }), std::overflow_error);
+  EXPECT_THROW(Subdivider::GetWholeOutput({ { 2 * (quarter - 1), 3 } }, { false }), std::overflow_error);
 }
 
 TEST(Subdivider, OneWorkspaceForRunsOfAllKinds)

@@ -204,6 +204,7 @@ Subdivider::GetWholeOutput(const Box & whole, const Flags & subdivided)
   Box output = whole;
   for (std::size_t axis = 0; axis < whole.size(); ++axis)
   {
+    GetLast(whole[axis]); // which must fit, whether the axis is subdivided or not
     output[axis] = subdivided[axis] ? GetChildren(whole[axis]) : whole[axis];
   }
   return output;

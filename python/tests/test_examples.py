@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The programs of examples/python, run as a user runs them."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -54,3 +55,16 @@ def test_tiffs_to_ome_zarr(tmp_path, volume):
     scale, translation = group.attrs["ome"]["multiscales"][0]["datasets"][0]["coordinateTransformations"]
     assert scale["scale"] == [0.006] * 3
     assert translation["translation"] == [-0.003] * 3
+
+
+def test_the_notebook_runs():
+    nbclient = pytest.importorskip("nbclient")
+    nbformat = pytest.importorskip("nbformat")
+    pytest.importorskip("ipywidgets")
+    notebook = nbformat.read(EXAMPLES / "before_and_after.ipynb", as_version=4)
+    nbclient.NotebookClient(notebook, timeout=120, kernel_name="python3").execute()
+    outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
+    assert sum("image/png" in output.get("data", {}) for output in outputs) == 1
+    assert any("application/vnd.jupyter.widget-view+json" in output.get("data", {}) for output in outputs)
+    angles = dict(re.findall(r"^(.*?) +([0-9.]+)°", outputs[-1].text, re.MULTILINE))
+    assert float(angles["restored, tension 0"]) < float(angles["non-oscillatory"]) < float(angles["the voxels"])

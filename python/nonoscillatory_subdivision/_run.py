@@ -101,7 +101,7 @@ class Run:
             boxes.insert(0, self.options.input_request(*boxes[0], whole))
         work = sum(prod(size) for _, size in boxes[1:])
         between = native_type(self.input_type) if self.is_labels else real_type(self.input_type, out.dtype)
-        compute_level = _core.subdivide
+        compute_level = _core.subdivide_labels if self.is_labels else _core.subdivide
 
         part, begin = to_native(read(*boxes[0])), 0.0
         for level, whole in enumerate(wholes):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""subdivide() and subdivide_labels(): what users call."""
+"""subdivide(), which users call."""
 
 from __future__ import annotations
 

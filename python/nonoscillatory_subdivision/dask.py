@@ -16,7 +16,7 @@ from ._arguments import Boundary
 from ._run import native_type, real_type
 from ._task import Task
 
-__all__ = ["subdivide"]
+__all__ = ["subdivide", "subdivide_labels"]
 
 
 def subdivide(
@@ -59,6 +59,21 @@ def subdivide(
     dask.array<subdivide_chunk, shape=(40, 40, 40), dtype=float64, chunksize=(20, 20, 20), chunktype=numpy.ndarray>
     """
     return apply(Task(scheme, tension, boundary, axes, levels, channel_axis, dtype), array)
+
+
+def subdivide_labels(
+    array: Any,
+    *,
+    scheme: str = "restored",
+    tension: float = 0.0,
+    boundary: Boundary = "nearest",
+    axes: int | Sequence[int] | None = None,
+    levels: int = 1,
+    dtype: DTypeLike | None = None,
+    channel_axis: int | None = None,
+) -> Any:
+    """Double the resolution of a label map in a Dask array, lazily: as `nonoscillatory_subdivision.subdivide_labels`."""
+    return apply(Task(scheme, tension, boundary, axes, levels, channel_axis, dtype, is_labels=True), array)
 
 
 def apply(task: Task, array: Any) -> Any:

@@ -16,7 +16,7 @@ import pytest
 import nonoscillatory_subdivision
 
 REPOSITORY = Path(__file__).parents[2]
-MODULES = ["", "._grid", "._subdivide", ".dask", ".zarr"]
+MODULES = ["", "._grid", "._labels", "._subdivide", ".dask", ".zarr"]
 
 
 @pytest.mark.parametrize("name", MODULES)

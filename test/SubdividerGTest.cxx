@@ -339,6 +339,34 @@ TEST(Subdivider, PassesOnWhatABoundaryThrows)
   }
 }
 
+class OutsideSeven final : public OutsideElements
+{
+public:
+  double
+  GetElement(const std::int64_t *) const override
+  {
+    return 7.0;
+  }
+};
+
+/** Whom a custom boundary asks may need all of the array; the run itself needs what it reads. */
+TEST(Subdivider, CustomBoundaryWithAPartOfTheInput)
+{
+  const TestArray whole = MakeInput(ElementType::Float, { { 0, 30 }, { 0, 30 } }, 1);
+  const Box       box{ { 0, 10 }, { 0, 10 } };
+  Options         options = MakeOptions({ true, true });
+  options.Boundary = Boundary::Constant({ 7.0 });
+  const TestArray part = Cut(whole, Subdivider::GetInputRequest(box, whole.GetBox(), options), TestLayout::Dense(2));
+  const TestArray expected = MakeWhole(whole, ElementType::Float, options);
+
+  options.Boundary = Boundary::Custom(std::make_shared<OutsideSeven>());
+  EXPECT_EQ(Subdivider::GetInputRequest(box, whole.GetBox(), options), whole.GetBox());
+  TestArray output(ElementType::Float, box);
+  Workspace workspace;
+  Subdivide(part, whole.GetBox(), output, options, 1, workspace);
+  EXPECT_EQ(CountDifferences(output, expected), 0u);
+}
+
 /** The message of what making a Subdivider throws. */
 template <typename TException = std::invalid_argument>
 std::string

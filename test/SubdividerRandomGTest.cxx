@@ -233,7 +233,7 @@ private:
 
 TEST(SubdividerRandom, AgreesWithTheReference)
 {
-  for (unsigned int seed = 0; seed < 400 && !HasFailure(); ++seed)
+  for (unsigned int seed = 0; seed < 300 && !HasFailure(); ++seed)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
     RandomRun(seed).Check();

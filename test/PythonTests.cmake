@@ -52,3 +52,13 @@ foreach(script experiments_test.py experiments_surfaces_test.py)
     PACKAGES numpy scipy pywt matplotlib skimage vtkmodules
   )
 endforeach()
+
+# The package for Python makes an environment of its own.
+add_test(
+  NAME python_package_test
+  COMMAND bash "${PROJECT_SOURCE_DIR}/scripts/test_python_package.sh" "${PROJECT_BINARY_DIR}/python"
+)
+set_tests_properties(python_package_test PROPERTIES
+  SKIP_REGULAR_EXPRESSION "skipped, for want of"
+  PROCESSORS 2
+)

@@ -15,6 +15,7 @@ is the average over its cell; subdivision replaces every cell by its halves alon
 
 from ._core import __version__, schemes, targets
 from ._grid import subdivided_grid
+from ._labels import subdivide_labels
 from ._subdivide import subdivide
 
-__all__ = ["__version__", "schemes", "subdivide", "subdivided_grid", "targets"]
+__all__ = ["__version__", "schemes", "subdivide", "subdivide_labels", "subdivided_grid", "targets"]

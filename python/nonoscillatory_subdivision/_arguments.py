@@ -136,20 +136,36 @@ def checked_region(region: Region | None, shape: tuple[int, ...]) -> tuple[list[
 
 
 def result_type(
-    volume: NDArray[Any], dtype: DTypeLike | None, out: NDArray[Any] | None
+    input_type: np.dtype[Any], dtype: DTypeLike | None, out: NDArray[Any] | None = None
 ) -> np.dtype[Any]:
-    """The type of the result: what out or dtype say; else the volume's, and float32 for bool."""
-    if out is not None:
-        asked = checked_type(out.dtype, "out")
-        if dtype is not None and np.dtype(dtype) != asked:
-            raise ValueError(f"dtype {np.dtype(dtype)} is not that of out, {asked}")
-    elif dtype is not None:
-        asked = checked_type(dtype, "dtype")
-    else:
-        return np.dtype(np.float32) if volume.dtype.kind == "b" else volume.dtype.newbyteorder("=")
+    """The type of the result: what out or dtype say; else the input's, and float32 for bool."""
+    asked = _asked_type(dtype, out)
+    if asked is None:
+        return np.dtype(np.float32) if input_type.kind == "b" else input_type.newbyteorder("=")
     if asked.kind == "b":
         raise TypeError("the result has values between those of the volume, which bool cannot hold")
     return asked
+
+
+def label_type(
+    input_type: np.dtype[Any], dtype: DTypeLike | None, out: NDArray[Any] | None = None
+) -> np.dtype[Any]:
+    """The type of labels in the result: what out or dtype say; else the input's."""
+    asked = _asked_type(dtype, out) or input_type.newbyteorder("=")
+    for name, kind in (("labels", input_type), ("the result", asked)):
+        if kind.kind not in "biu":
+            raise TypeError(f"{name} cannot have the type {kind}: labels are integers or bool")
+    if asked.kind == "b" and input_type.kind != "b":
+        raise TypeError(f"bool cannot hold labels of the type {input_type}")
+    return asked
+
+
+def _asked_type(dtype: DTypeLike | None, out: NDArray[Any] | None) -> np.dtype[Any] | None:
+    if out is None:
+        return None if dtype is None else checked_type(dtype, "dtype")
+    if dtype is not None and np.dtype(dtype) != out.dtype:
+        raise ValueError(f"dtype {np.dtype(dtype)} is not that of out, {out.dtype}")
+    return checked_type(out.dtype, "out")
 
 
 def checked_out(out: NDArray[Any], shape: tuple[int, ...]) -> None:

@@ -39,3 +39,17 @@ def subdivide(
     end: float,
 ) -> None:
     """One level: fills the output, part of the doubled whole, from a part of the input."""
+
+def subdivide_labels(
+    options: Options,
+    input: NDArray[Any],
+    input_first: Sequence[int],
+    whole: Sequence[int],
+    output: NDArray[Any],
+    output_first: Sequence[int],
+    threads: int,
+    progress: Callable[[float], object] | None,
+    begin: float,
+    end: float,
+) -> None:
+    """One level of labels: fills the output, part of the doubled whole, from a part of the input."""

@@ -14,7 +14,7 @@ from ._arguments import checked_axes, checked_levels
 
 def first_child(levels: int) -> float:
     """The continuous input index of output index 0: a quarter voxel below the centre of voxel 0 for one level."""
-    return -(2**levels - 1) / 2 ** (levels + 1)
+    return -((1 << levels) - 1) / (2 << levels)
 
 
 def subdivided_grid(

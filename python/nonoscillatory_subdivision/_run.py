@@ -29,6 +29,11 @@ def is_native(array: NDArray[Any]) -> bool:
     )
 
 
+def as_integers(array: NDArray[Any]) -> NDArray[Any]:
+    """The memory of bool as integers, 0 and 1."""
+    return array.view(np.uint8) if array.dtype.kind == "b" else array
+
+
 def is_in_order(array: NDArray[Any]) -> bool:
     """Whether memory runs along the last axis first. The array layer goes through an input along its memory, and sums
     in another order have other last digits."""
@@ -38,8 +43,7 @@ def is_in_order(array: NDArray[Any]) -> bool:
 
 def to_native(array: NDArray[Any]) -> NDArray[Any]:
     """The same values as the array layer takes them from an array in C's order; a copy only where it must be."""
-    if array.dtype.kind == "b":
-        array = array.view(np.uint8)
+    array = as_integers(array)
     if is_native(array) and is_in_order(array):
         return array
     return np.ascontiguousarray(array, dtype=native_type(array.dtype))
@@ -73,23 +77,22 @@ class Run:
     axes: tuple[int, ...]
     levels: int
     input_type: np.dtype[Any]
+    is_labels: bool = False
     threads: int = 1
     progress: Progress | None = None
 
     def compute(self, read: Reader, first: Indices, out: NDArray[Any]) -> None:
         """Fills out with the part of the final output that begins at first."""
-        native = self._native_target(out)
-        self._compute_levels(read, first, native)
-        if native is not out:
-            out[...] = native
+        out = as_integers(out)
+        target = out if is_native(out) else np.empty(out.shape, self._target_type(out.dtype))
+        self._compute_levels(read, first, target)
+        if target is not out:
+            out[...] = target
 
-    def _native_target(self, out: NDArray[Any]) -> NDArray[Any]:
-        if is_native(out):
-            return out
-        dtype = native_type(out.dtype)
-        if dtype.kind == "f" and dtype.itemsize != out.itemsize:
-            dtype = real_type(self.input_type, dtype)  # rounded once, by the copy
-        return np.empty(out.shape, dtype)
+    def _target_type(self, dtype: np.dtype[Any]) -> np.dtype[Any]:
+        """The type to compute a result of that type in, before it is rounded, once, by a copy."""
+        native = native_type(dtype)
+        return native if native.itemsize == dtype.itemsize else real_type(self.input_type, native)
 
     def _compute_levels(self, read: Reader, first: Indices, out: NDArray[Any]) -> None:
         wholes = [doubled_shape(self.shape, self.axes, level) for level in range(self.levels)]
@@ -97,14 +100,15 @@ class Run:
         for whole in reversed(wholes):
             boxes.insert(0, self.options.input_request(*boxes[0], whole))
         work = sum(prod(size) for _, size in boxes[1:])
-        between = real_type(self.input_type, out.dtype)
+        between = native_type(self.input_type) if self.is_labels else real_type(self.input_type, out.dtype)
+        compute_level = _core.subdivide_labels if self.is_labels else _core.subdivide
 
         part, begin = to_native(read(*boxes[0])), 0.0
         for level, whole in enumerate(wholes):
             target_first, target_size = boxes[level + 1]
             target = out if level == self.levels - 1 else np.empty(target_size, between)
             end = begin + prod(target_size) / work
-            _core.subdivide(
+            compute_level(
                 self.options, part, boxes[level][0], whole, target, target_first, self.threads, self.progress, begin, end
             )
             part, begin = target, end

@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""subdivide(): checks, and a run on an array."""
+"""subdivide(), which users call."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any, TypeVar, overload
 
-import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from . import _arguments, _core, images
 from ._arguments import Boundary, Region
-from ._run import Indices, Progress, Run, doubled_shape
+from ._run import Progress
+from ._task import Task
 
 TImage = TypeVar("TImage")
 
@@ -133,69 +132,5 @@ def subdivide(
     >>> subdivide(step, levels=2, region=np.s_[18:22]).shape
     (4,)
     """
-    if not isinstance(volume, np.ndarray):
-        options = {"scheme": scheme, "tension": tension, "boundary": boundary, "dtype": dtype}
-        place = {"axes": axes, "levels": levels, "channel_axis": channel_axis}
-        in_memory = {"threads": threads, "progress": progress}
-        if images.is_dask_array(volume):
-            from . import dask
-
-            images.refuse({"region": region, "out": out} | in_memory, volume)
-            return dask.subdivide(volume, **options, **place)
-        adapter = images.find_adapter(volume)
-        if adapter is not None:
-            images.refuse({"region": region, "out": out}, volume)
-            return images.subdivide_image(adapter, volume, subdivide, options | in_memory, **place)
-    array = _arguments.checked_volume(volume)
-    channel_axis = _arguments.checked_dimension(array.ndim, channel_axis)
-    run = Run(
-        options=make_options(scheme, tension, boundary, axes, array.ndim, channel_axis),
-        shape=array.shape,
-        axes=_arguments.checked_axes(axes, array.ndim, channel_axis),
-        levels=_arguments.checked_levels(levels),
-        input_type=array.dtype,
-        threads=_arguments.checked_threads(threads),
-        progress=progress,
-    )
-    return run_on_array(run, array, region, out, dtype)
-
-
-def make_options(
-    scheme: str,
-    tension: float,
-    boundary: Boundary,
-    axes: int | Sequence[int] | None,
-    dimension: int,
-    channel_axis: int | None,
-) -> _core.Options:
-    subdivided = _arguments.checked_axes(axes, dimension, channel_axis)
-    return _core.Options(
-        _arguments.checked_scheme(scheme),
-        _arguments.checked_tension(tension),
-        [axis in subdivided for axis in range(dimension)],
-        *_arguments.checked_boundary(boundary),
-    )
-
-
-def run_on_array(
-    run: Run, array: NDArray[Any], region: Region | None, out: NDArray[Any] | None, dtype: DTypeLike | None
-) -> NDArray[Any]:
-    if run.progress is not None and not callable(run.progress):
-        raise TypeError(f"progress {run.progress!r} cannot be called")
-    first, size = _arguments.checked_region(region, doubled_shape(run.shape, run.axes, run.levels))
-    if out is not None:
-        _arguments.checked_out(out, tuple(size))
-    kind = _arguments.result_type(array, dtype, out)
-
-    def read(part_first: Indices, part_size: Indices) -> NDArray[Any]:
-        return array[tuple(slice(start, start + length) for start, length in zip(part_first, part_size))]
-
-    is_fresh = out is None or np.may_share_memory(out, array)
-    result = np.empty(size, kind) if is_fresh else out
-    assert result is not None
-    run.compute(read, first, result)
-    if out is None:
-        return result
-    if is_fresh:
-        out[...] = result
-    return out
+    task = Task(scheme, tension, boundary, axes, levels, channel_axis, dtype)
+    return task.apply(volume, region, out, threads, progress)

@@ -59,13 +59,13 @@ def open_image(path: str) -> Image:
         raise ValueError(f"{path} is neither a Zarr array nor a Zarr group") from None
     if isinstance(node, zarr.Array):
         return Image(path, node, path)
-    attributes = node.attrs.asdict()
-    described = attributes.get("ome", attributes)
+    attributes: dict[str, Any] = node.attrs.asdict()
+    described: dict[str, Any] = attributes.get("ome", attributes)
     if "image-label" in described:
         raise ValueError(f"{path} is a label image: subdivide() would blend its labels")
     if not described.get("multiscales"):
         raise ValueError(f"{path} is a group without an image (no 'multiscales'): name the group of one image, or an array")
-    multiscale = described["multiscales"][0]
+    multiscale: dict[str, Any] = described["multiscales"][0]
     axes = multiscale.get("axes", [])
     if not axes or not all(isinstance(axis, dict) for axis in axes):
         raise ValueError(f"{path} does not describe its axes as OME-Zarr 0.4 and 0.5 do")
@@ -76,7 +76,7 @@ def open_image(path: str) -> Image:
 def create_array(path: str, image: Image, axes: Sequence[int], levels: int, chunks: Sequence[int] | None) -> Any:
     """An empty array for the result, like that of the image in all but its shape; chunks, if any are given."""
     source = image.array
-    dtype = _arguments.result_type(source, None, None)
+    dtype = _arguments.result_type(source.dtype, None)
     same_type = dtype == source.dtype.newbyteorder("=")
     metadata = source.metadata
     options: dict[str, Any] = {}
@@ -109,7 +109,9 @@ def write_new_group(path: str, image: Image, axes: Sequence[int], levels: int, a
     """Describes the result, an array in a group of its own, as an image of one level."""
     assert image.attributes is not None and image.multiscale is not None
     described = image.attributes.get("ome", image.attributes)
-    multiscale = {key: image.multiscale[key] for key in ("version", "name") if key in image.multiscale}
+    multiscale: dict[str, Any] = {
+        key: image.multiscale[key] for key in ("version", "name") if key in image.multiscale
+    }
     multiscale["axes"] = image.multiscale["axes"]
     multiscale["datasets"] = [_dataset(image, axes, levels, array_name)]
     if "coordinateTransformations" in image.multiscale:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import dask.array
@@ -11,11 +12,11 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from . import _arguments, _core
-from . import subdivide as subdivide_array
 from ._arguments import Boundary
-from ._run import real_type
+from ._run import native_type, real_type
+from ._task import Task
 
-__all__ = ["subdivide"]
+__all__ = ["subdivide", "subdivide_labels"]
 
 
 def subdivide(
@@ -57,29 +58,46 @@ def subdivide(
     >>> subdivide(volume)
     dask.array<subdivide_chunk, shape=(40, 40, 40), dtype=float64, chunksize=(20, 20, 20), chunktype=numpy.ndarray>
     """
+    return apply(Task(scheme, tension, boundary, axes, levels, channel_axis, dtype), array)
+
+
+def subdivide_labels(
+    array: Any,
+    *,
+    scheme: str = "restored",
+    tension: float = 0.0,
+    boundary: Boundary = "nearest",
+    axes: int | Sequence[int] | None = None,
+    levels: int = 1,
+    dtype: DTypeLike | None = None,
+    channel_axis: int | None = None,
+) -> Any:
+    """Double the resolution of a label map in a Dask array, lazily: as `nonoscillatory_subdivision.subdivide_labels`."""
+    return apply(Task(scheme, tension, boundary, axes, levels, channel_axis, dtype, is_labels=True), array)
+
+
+def apply(task: Task, array: Any) -> Any:
     if np.isnan(array.shape).any():
         raise ValueError(f"the array has chunks of unknown size: shape {array.shape}; call compute_chunk_sizes() first")
-    empty = np.empty((1,) * array.ndim, array.dtype)
-    checked_channel = _arguments.checked_dimension(array.ndim, channel_axis)
-    checked = _arguments.checked_axes(axes, array.ndim, checked_channel)
-    kind = _arguments.result_type(_arguments.checked_volume(empty, "array"), dtype, None)
-    options = {"scheme": scheme, "tension": tension, "boundary": boundary, "axes": checked}
-    options["channel_axis"] = checked_channel
-    subdivide_array(empty, threads=1, dtype=kind, **options)  # type: ignore[call-overload] # complains of wrong options
-    levels = _arguments.checked_levels(levels)
-    between = real_type(array.dtype, kind)
-    for level in range(levels):
-        array = _one_level(array, kind if level == levels - 1 else between, options)
+    # One voxel is enough to find what is wrong with the options.
+    task.apply_to_array(_arguments.checked_volume(np.zeros((1,) * array.ndim, array.dtype), "array"), threads=1)
+    task = replace(task, axes=task.checked_axes(array.ndim))
+    result_type = task.result_type(array.dtype)
+    between = native_type(array.dtype) if task.is_labels else real_type(array.dtype, result_type)
+    for level in range(task.levels):
+        is_last = level == task.levels - 1
+        array = _one_level(replace(task, levels=1, dtype=result_type if is_last else between), array)
     return array
 
 
-def _one_level(array: Any, dtype: np.dtype[Any], options: dict[str, Any]) -> Any:
-    radius = _core.radius(options["scheme"])
-    is_periodic = options["boundary"] == "periodic"
+def _one_level(task: Task, array: Any) -> Any:
+    radius = _core.radius(task.scheme)
+    axes = task.checked_axes(array.ndim)
+    is_periodic = task.boundary == "periodic"
     chunks = list(array.chunks)
     # An axis of one chunk is whole, and its boundary is applied by the scheme itself.
     depth = dict.fromkeys(range(array.ndim), 0)
-    for axis in options["axes"]:
+    for axis in axes:
         chunks[axis] = _thick_chunks(chunks[axis], radius)
         if len(chunks[axis]) > 1:
             depth[axis] = radius
@@ -91,15 +109,13 @@ def _one_level(array: Any, dtype: np.dtype[Any], options: dict[str, Any]) -> Any
         boundary={axis: "periodic" if is_periodic else "none" for axis in depth},
         trim=False,
         allow_rechunk=False,
-        dtype=dtype,
-        meta=np.empty((0,) * array.ndim, dtype),
+        dtype=task.dtype,
+        meta=np.empty((0,) * array.ndim, task.dtype),
         chunks=tuple(
-            tuple(2 * size for size in sizes) if axis in options["axes"] else sizes
-            for axis, sizes in enumerate(array.chunks)
+            tuple(2 * size for size in sizes) if axis in axes else sizes for axis, sizes in enumerate(array.chunks)
         ),
-        result_type=dtype,
+        task=task,
         depth_of_axis=depth,
-        options=options,
     )
 
 
@@ -111,19 +127,16 @@ def _thick_chunks(sizes: tuple[int, ...], thinnest: int) -> tuple[int, ...]:
 
 
 def subdivide_chunk(
-    chunk: NDArray[Any],
-    result_type: np.dtype[Any],
-    depth_of_axis: dict[int, int],
-    options: dict[str, Any],
-    block_info: Any = None,
+    chunk: NDArray[Any], task: Task, depth_of_axis: dict[int, int], block_info: Any = None
 ) -> NDArray[Any]:
     """The children of a chunk with its overlap, which is missing where the array ends, unless it is periodic."""
     location, numbers = block_info[0]["chunk-location"], block_info[0]["num-chunks"]
-    is_periodic = options["boundary"] == "periodic"
+    is_periodic = task.boundary == "periodic"
+    axes = task.checked_axes(chunk.ndim)
     region = []
     for axis, size in enumerate(chunk.shape):
         depth = 2 * depth_of_axis[axis]
         low = depth if location[axis] > 0 or is_periodic else 0
         high = depth if location[axis] < numbers[axis] - 1 or is_periodic else 0
-        region.append(slice(low, (2 * size if axis in options["axes"] else size) - high))
-    return subdivide_array(chunk, region=tuple(region), dtype=result_type, threads=1, **options)
+        region.append(slice(low, (2 * size if axis in axes else size) - high))
+    return task.apply_to_array(chunk, tuple(region), threads=1)

@@ -4,13 +4,12 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _arguments
 from ._grid import first_child, subdivided_grid
 
 
@@ -40,33 +39,6 @@ def find_adapter(image: object) -> Adapter | None:
 def is_dask_array(volume: object) -> bool:
     dask_array = sys.modules.get("dask.array")
     return dask_array is not None and isinstance(volume, dask_array.Array)
-
-
-def refuse(options: dict[str, Any], volume: object) -> None:
-    """Options that only arrays in memory have."""
-    for name, value in options.items():
-        if value is not None:
-            raise TypeError(f"{name} is for arrays in memory, not for {type(volume).__name__}")
-
-
-def subdivide_image(
-    adapter: Adapter,
-    image: Any,
-    subdivide_array: Callable[..., NDArray[Any]],
-    options: dict[str, Any],
-    *,
-    axes: int | Sequence[int] | None,
-    levels: int,
-    channel_axis: int | None,
-) -> Any:
-    array, components = adapter.to_array(image)
-    if components is not None and channel_axis is not None:
-        raise TypeError(f"channel_axis {channel_axis}: the image has its components apart from its axes")
-    channel_axis = channel_axis if components is None else components
-    channel_axis = _arguments.checked_dimension(array.ndim, channel_axis)
-    checked = _arguments.checked_axes(axes, array.ndim, channel_axis)
-    result = subdivide_array(array, axes=checked, levels=levels, channel_axis=channel_axis, **options)
-    return adapter.from_array(result, image, checked, levels)
 
 
 def _itk_grid(image: Any, axes: Sequence[int], levels: int, first: Sequence[int]) -> tuple[list[float], list[float]]:

@@ -5,6 +5,7 @@
 #include "PythonMonitor.h"
 #include "WorkspaceLoan.h"
 
+#include "NonOscillatorySubdivision/LabelSubdivider.h"
 #include "NonOscillatorySubdivision/RunTiles.h"
 #include "NonOscillatorySubdivision/Scheme.h"
 #include "NonOscillatorySubdivision/Subdivider.h"
@@ -104,8 +105,7 @@ MakeOptions(const std::string & scheme, double tension, Flags axes, const std::s
 std::pair<Indices, Indices>
 GetInputRequest(const Options & options, const Indices & first, const Indices & size, const Indices & whole)
 {
-  const Box request =
-    Subdivider::GetInputRequest(ToBox(first, size), ToBox(Indices(whole.size(), 0), whole), options);
+  const Box request = Subdivider::GetInputRequest(ToBox(first, size), ToBox(Indices(whole.size(), 0), whole), options);
   std::pair<Indices, Indices> result;
   for (auto interval = request.rbegin(); interval != request.rend(); ++interval)
   {
@@ -113,6 +113,27 @@ GetInputRequest(const Options & options, const Indices & first, const Indices & 
     result.second.push_back(static_cast<std::int64_t>(interval->Size));
   }
   return result;
+}
+
+/** Runs one level without the interpreter's lock. \c computeTiles is given the views, the whole and a monitor. */
+template <typename TFunction>
+void
+RunLevel(const InputArray &  input,
+         const Indices &     inputFirst,
+         const Indices &     whole,
+         const OutputArray & output,
+         const Indices &     outputFirst,
+         nb::object          progress,
+         const double        begin,
+         const double        end,
+         TFunction           computeTiles)
+{
+  const auto                   inputView = ToView<ConstArrayView>(input, inputFirst);
+  const auto                   outputView = ToView<ArrayView>(output, outputFirst);
+  const Box                    wholeBox = ToBox(Indices(whole.size(), 0), whole);
+  PythonMonitor                monitor(std::move(progress), begin, end, output.size());
+  const nb::gil_scoped_release unlocked;
+  computeTiles(inputView, wholeBox, outputView, monitor);
 }
 
 void
@@ -127,14 +148,33 @@ Subdivide(const Options &     options,
           const double        begin,
           const double        end)
 {
-  const auto                   inputView = ToView<ConstArrayView>(input, inputFirst);
-  const auto                   outputView = ToView<ArrayView>(output, outputFirst);
-  const Box                    wholeBox = ToBox(Indices(whole.size(), 0), whole);
-  PythonMonitor                monitor(std::move(progress), begin, end, output.size());
-  const nb::gil_scoped_release unlocked;
-  WorkspaceLoan                workspace;
-  Subdivider                   run(inputView, wholeBox, outputView, options, threads, workspace.Get());
-  RunTiles(run, threads, monitor);
+  const auto compute =
+    [&](const ConstArrayView & from, const Box & wholeBox, const ArrayView & to, TileMonitor & monitor) {
+      WorkspaceLoan workspace;
+      Subdivider    run(from, wholeBox, to, options, threads, workspace.Get());
+      RunTiles(run, threads, monitor);
+    };
+  RunLevel(input, inputFirst, whole, output, outputFirst, std::move(progress), begin, end, compute);
+}
+
+void
+SubdivideLabels(const Options &     options,
+                const InputArray &  input,
+                const Indices &     inputFirst,
+                const Indices &     whole,
+                const OutputArray & output,
+                const Indices &     outputFirst,
+                const unsigned int  threads,
+                nb::object          progress,
+                const double        begin,
+                const double        end)
+{
+  const auto compute =
+    [&](const ConstArrayView & from, const Box & wholeBox, const ArrayView & to, TileMonitor & monitor) {
+      LabelSubdivider run(from, wholeBox, to, options);
+      RunTiles(run, threads, monitor);
+    };
+  RunLevel(input, inputFirst, whole, output, outputFirst, std::move(progress), begin, end, compute);
 }
 
 std::vector<std::string>
@@ -157,29 +197,34 @@ NB_MODULE(_core, module)
   module.def("targets", &Target::GetNames);
   module.def("radius", [](const std::string & scheme) { return FindScheme(scheme).Radius(); }, "scheme"_a);
   nb::class_<Options>(module, "Options")
-    .def("__init__",
-         [](Options *           self,
-            const std::string & scheme,
-            double              tension,
-            const Flags &       axes,
-            const std::string & boundary,
-            double constant) { new (self) Options(MakeOptions(scheme, tension, axes, boundary, constant)); },
-         "scheme"_a,
-         "tension"_a,
-         "axes"_a,
-         "boundary"_a,
-         "constant"_a)
+    .def(
+      "__init__",
+      [](Options *           self,
+         const std::string & scheme,
+         double              tension,
+         const Flags &       axes,
+         const std::string & boundary,
+         double              constant) { new (self) Options(MakeOptions(scheme, tension, axes, boundary, constant)); },
+      "scheme"_a,
+      "tension"_a,
+      "axes"_a,
+      "boundary"_a,
+      "constant"_a)
     .def("input_request", &GetInputRequest, "first"_a, "size"_a, "whole"_a);
-  module.def("subdivide",
-             &Subdivide,
-             "options"_a,
-             "input"_a,
-             "input_first"_a,
-             "whole"_a,
-             "output"_a,
-             "output_first"_a,
-             "threads"_a,
-             "progress"_a.none(),
-             "begin"_a,
-             "end"_a);
+  const auto defineLevel = [&module](const char * name, auto function) {
+    module.def(name,
+               function,
+               "options"_a,
+               "input"_a,
+               "input_first"_a,
+               "whole"_a,
+               "output"_a,
+               "output_first"_a,
+               "threads"_a,
+               "progress"_a.none(),
+               "begin"_a,
+               "end"_a);
+  };
+  defineLevel("subdivide", &Subdivide);
+  defineLevel("subdivide_labels", &SubdivideLabels);
 }

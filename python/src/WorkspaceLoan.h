@@ -46,8 +46,8 @@ public:
 private:
   std::unique_ptr<itk::Subdivision::Workspace> m_Workspace;
 
-  inline static std::mutex                                   s_Mutex;
-  inline static std::unique_ptr<itk::Subdivision::Workspace> s_Kept;
+  static inline std::mutex                                   s_Mutex;
+  static inline std::unique_ptr<itk::Subdivision::Workspace> s_Kept;
 };
 
 #endif

@@ -5,6 +5,8 @@
 #include "NonOscillatorySubdivision/LabelSubdivider.h"
 #include "itkSubdivisionImageFilterBase.h"
 
+#include <stdexcept>
+
 namespace itk
 {
 
@@ -60,6 +62,19 @@ protected:
       Subdivision::LabelSubdivider::CheckScheme(this->GetParts());
     }
     catch (const std::invalid_argument & error)
+    {
+      itkExceptionMacro(<< error.what());
+    }
+  }
+
+  void
+  GenerateData() override
+  {
+    try
+    {
+      Superclass::GenerateData();
+    }
+    catch (const std::range_error & error)
     {
       itkExceptionMacro(<< error.what());
     }

@@ -29,8 +29,9 @@ using SchemeEnum = itk::NonOscillatorySubdivisionImageFilterEnums::Scheme;
 inline std::vector<SchemeEnum>
 AllSchemes()
 {
-  return { SchemeEnum::NonOscillatory, SchemeEnum::Linear, SchemeEnum::BoundedLinear, SchemeEnum::BSpline,
-           SchemeEnum::Restored };
+  return {
+    SchemeEnum::NonOscillatory, SchemeEnum::Linear, SchemeEnum::BoundedLinear, SchemeEnum::BSpline, SchemeEnum::Restored
+  };
 }
 
 inline ref::Scheme

@@ -74,6 +74,10 @@ private:
 class NonOscillatorySubdivision_EXPORT Subdivider
 {
 public:
+  /** The most memory that a Workspace takes for each thread, in bytes; for who plans memory. Tiles do not grow with the
+   * arrays. */
+  static constexpr std::size_t MostScratchBytesPerThread = std::size_t{ 32 } << 20;
+
   /** \param input what there is of the input: at least what GetInputRequest() names
    * \param whole the indices of the whole input, beyond which the boundary begins
    * \param output where the results go: its box is what is computed

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#ifndef itkSubdivisionLanesPortable_h
-#define itkSubdivisionLanesPortable_h
+#ifndef VectorsPortable_h
+#define VectorsPortable_h
 
 // Vectors of a single lane: the compiler is left to vectorise the loops over rows.
 // Highway's names, so that the sweep is written once.
@@ -13,6 +13,8 @@
 #define SUBDIVISION_INLINE inline
 
 namespace itk
+{
+namespace Subdivision
 {
 namespace SUBDIVISION_TARGET
 {
@@ -36,7 +38,7 @@ Load(const T * p)
 
 template <typename T>
 inline T
-Hold(T v)
+KeepInRegister(T v)
 {
   return v;
 }
@@ -98,6 +100,13 @@ Mul(T a, T b)
 
 template <typename T>
 inline T
+Div(T a, T b)
+{
+  return a / b;
+}
+
+template <typename T>
+inline T
 MulAdd(T a, T b, T c)
 {
   return a * b + c;
@@ -148,20 +157,36 @@ OrderedMax(T a, T b)
   return a > b ? a : b;
 }
 
-/** Makes ready for MinOfSums. */
+/** Makes a sum of magnitudes ready for MinNonNegative and MaxNonNegative. */
 template <typename T>
 inline T
-Comparable(T sum)
+ToOrderedBits(T sum)
 {
   return OrderedMin(sum, std::numeric_limits<T>::infinity());
 }
 
-/** The smaller one of two sums of sizes; NaN counts as infinite. */
+/** The smaller one of two sums of magnitudes; NaN counts as infinite. */
 template <typename T>
 inline T
-MinOfSums(T a, T b)
+MinNonNegative(T a, T b)
 {
   return OrderedMin(a, b);
+}
+
+/** The greater one of two sums of magnitudes; NaN counts as infinite. */
+template <typename T>
+inline T
+MaxNonNegative(T a, T b)
+{
+  return OrderedMax(a, b);
+}
+
+/** \c v where \c divisor is finite and above 0, else 0. */
+template <typename T>
+inline T
+ZeroUnlessDivisible(T v, T divisor)
+{
+  return divisor > 0 && divisor <= std::numeric_limits<T>::max() ? v : T(0);
 }
 
 /** The replacement where \c v is finite, else \c v. */
@@ -173,6 +198,7 @@ IfFinite(T v, T replacement)
 }
 
 } // namespace SUBDIVISION_TARGET
+} // namespace Subdivision
 } // namespace itk
 
 #endif

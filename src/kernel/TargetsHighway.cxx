@@ -6,31 +6,35 @@
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "itkSubdivisionTargetsHighway.cxx"
+#define HWY_TARGET_INCLUDE "kernel/TargetsHighway.cxx"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
-#include "itkSubdivisionMasks.h"
-#include "itkSubdivisionSweep.h"
+#include "kernel/stages/Ring.h"
+#include "kernel/Sweep.h"
+#include "kernel/vectors/RoundToElement.h"
+#include "memory/Layout.h"
 
 #include <algorithm>
 #include <cstring>
 #include <limits>
 #include <type_traits>
 
-#ifndef itkSubdivisionTargetsHighway_registry
-#  define itkSubdivisionTargetsHighway_registry
+#ifndef TargetsHighway_registry
+#  define TargetsHighway_registry
 namespace itk
+{
+namespace Subdivision
 {
 namespace
 {
-constexpr int     MaximumNumberOfTargets = 16;
-SubdivisionTarget GeneratedTargets[MaximumNumberOfTargets];
-std::int64_t      GeneratedTargetBits[MaximumNumberOfTargets];
-int               NumberOfGeneratedTargets = 0;
+constexpr int MaximumNumberOfTargets = 16;
+TargetTable   GeneratedTargets[MaximumNumberOfTargets];
+std::int64_t  GeneratedTargetBits[MaximumNumberOfTargets];
+int           NumberOfGeneratedTargets = 0;
 
 bool
-RegisterTarget(const std::int64_t bit, const SubdivisionTarget & target)
+RegisterTarget(const std::int64_t bit, const TargetTable & target)
 {
   if (bit == HWY_SCALAR)
   {
@@ -44,6 +48,7 @@ RegisterTarget(const std::int64_t bit, const SubdivisionTarget & target)
   return true;
 }
 } // namespace
+} // namespace Subdivision
 } // namespace itk
 #endif
 
@@ -53,33 +58,41 @@ RegisterTarget(const std::int64_t bit, const SubdivisionTarget & target)
 #define SUBDIVISION_ATTRIBUTE HWY_ATTR
 
 HWY_BEFORE_NAMESPACE();
-#include "itkSubdivisionLanesHighway-inl.h"
-#include "itkSubdivisionConversionsHighway-inl.h"
-#include "itkSubdivisionTarget-inl.h"
+#include "kernel/vectors/VectorsHighway-inl.h"
+#include "kernel/vectors/ConversionsHighway-inl.h"
+#include "kernel/TargetTable-inl.h"
 namespace itk
+{
+namespace Subdivision
 {
 namespace HWY_NAMESPACE
 {
-constexpr SubdivisionTarget ThisTarget = MakeTarget("");
+constexpr TargetTable ThisTarget = MakeTable("");
 }
+} // namespace Subdivision
 } // namespace itk
 HWY_AFTER_NAMESPACE();
 
 // Runs on every processor, and so stands outside of the code for this target.
 namespace itk
 {
+namespace Subdivision
+{
 namespace HWY_NAMESPACE
 {
 const bool IsRegistered = RegisterTarget(HWY_TARGET, ThisTarget);
 }
+} // namespace Subdivision
 } // namespace itk
 
 #if HWY_ONCE
 namespace itk
 {
+namespace Subdivision
+{
 
 int
-GetVectorisedSubdivisionTargets(const SubdivisionTarget ** targets, int maximum)
+GetVectorisedTargets(const TargetTable ** targets, int maximum)
 {
   // The lower the bit, the better the target.
   const std::int64_t supported = hwy::SupportedTargets();
@@ -106,5 +119,6 @@ GetVectorisedSubdivisionTargets(const SubdivisionTarget ** targets, int maximum)
   return count;
 }
 
+} // namespace Subdivision
 } // namespace itk
 #endif

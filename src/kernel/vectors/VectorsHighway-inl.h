@@ -7,6 +7,8 @@
 
 namespace itk
 {
+namespace Subdivision
+{
 namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -35,7 +37,7 @@ HWY_INLINE Vector<T>
  * are what the loops over rows wait for. */
 template <typename TVector>
 HWY_INLINE TVector
-Hold(TVector v)
+KeepInRegister(TVector v)
 {
 #if HWY_COMPILER_GCC_ACTUAL && HWY_ARCH_X86
   asm("" : "+v"(v.raw));
@@ -81,7 +83,7 @@ public:
   {
     for (int i = 0; i < Loads; ++i)
     {
-      m_Loaded[i] = Hold(Load(p - VReach + i * Block));
+      m_Loaded[i] = KeepInRegister(Load(p - VReach + i * Block));
     }
   }
 
@@ -116,6 +118,7 @@ HWY_INLINE Vector<T>
 }
 
 using hn::Add;
+using hn::Div;
 using hn::Mul;
 using hn::MulAdd;
 using hn::MulSub;
@@ -131,7 +134,7 @@ Magnitude(TVector v)
   using D = hn::DFromV<TVector>;
   constexpr hn::RebindToUnsigned<D> bits;
   const auto                        allButSign = hn::Set(bits, ~hwy::SignMask<hn::TFromD<D>>());
-  return hn::And(v, Hold(hn::BitCast(D(), allButSign)));
+  return hn::And(v, KeepInRegister(hn::BitCast(D(), allButSign)));
 }
 
 /** The second value where either is NaN, as x86 does by itself; other instruction sets differ. */
@@ -158,19 +161,19 @@ OrderedMax(TVector a, TVector b)
 #endif
 }
 
-/** Makes ready for MinOfSums. */
+/** Makes a sum of magnitudes ready for MinNonNegative and MaxNonNegative. */
 template <typename TVector>
 HWY_INLINE TVector
-Comparable(TVector sum)
+ToOrderedBits(TVector sum)
 {
   using T = hn::TFromD<hn::DFromV<TVector>>;
   return sizeof(T) == sizeof(std::uint32_t) ? sum : OrderedMin(sum, Broadcast<T>(std::numeric_limits<T>::infinity()));
 }
 
-/** The smaller one of two sums of sizes; NaN counts as infinite. */
+/** The smaller one of two sums of magnitudes; NaN counts as infinite. */
 template <typename TVector>
 HWY_INLINE TVector
-MinOfSums(TVector a, TVector b)
+MinNonNegative(TVector a, TVector b)
 {
   using D = hn::DFromV<TVector>;
   if constexpr (sizeof(hn::TFromD<D>) == sizeof(std::uint32_t))
@@ -186,6 +189,33 @@ MinOfSums(TVector a, TVector b)
   }
 }
 
+/** The greater one of two sums of magnitudes; NaN counts as infinite or more. */
+template <typename TVector>
+HWY_INLINE TVector
+MaxNonNegative(TVector a, TVector b)
+{
+  using D = hn::DFromV<TVector>;
+  if constexpr (sizeof(hn::TFromD<D>) == sizeof(std::uint32_t))
+  {
+    constexpr hn::RebindToUnsigned<D> bits;
+    return hn::BitCast(D(), hn::Max(hn::BitCast(bits, a), hn::BitCast(bits, b)));
+  }
+  else
+  {
+    return OrderedMax(a, b);
+  }
+}
+
+/** \c v where \c divisor is finite and above 0, else 0. */
+template <typename TVector>
+HWY_INLINE TVector
+ZeroUnlessDivisible(TVector v, TVector divisor)
+{
+  using D = hn::DFromV<TVector>;
+  const auto largest = hn::Set(D(), hwy::HighestValue<hn::TFromD<D>>());
+  return hn::IfThenElseZero(hn::And(hn::Gt(divisor, hn::Zero(D())), hn::Le(divisor, largest)), v);
+}
+
 /** The replacement where \c v is finite, else \c v. */
 template <typename TVector>
 HWY_INLINE TVector
@@ -197,4 +227,5 @@ IfFinite(TVector v, TVector replacement)
 }
 
 } // namespace HWY_NAMESPACE
+} // namespace Subdivision
 } // namespace itk

@@ -4,9 +4,11 @@
 find_program(CASTXML_EXECUTABLE castxml)
 mark_as_advanced(CASTXML_EXECUTABLE)
 
+# What a user of the module compiles with.
+set(include_directories $<TARGET_PROPERTY:NonOscillatorySubdivisionGTestDriver,INCLUDE_DIRECTORIES>)
+
 if(CASTXML_EXECUTABLE)
   # The standard library of GCC relies on sized deallocation, which the Clang within castxml has on demand only.
-  set(include_directories $<TARGET_PROPERTY:NonOscillatorySubdivisionGTestDriver,INCLUDE_DIRECTORIES>)
   add_test(
     NAME NonOscillatorySubdivisionHeaders.ParseWithCastXML
     COMMAND "${CASTXML_EXECUTABLE}" --castxml-output=1 --castxml-start _wrapping_
@@ -31,6 +33,27 @@ foreach(header IN LISTS plain_headers)
         "-I${NonOscillatorySubdivision_SOURCE_DIR}/include" "-I${NonOscillatorySubdivision_BINARY_DIR}/include"
         -include "NonOscillatorySubdivision/${name}.h" -x c++ /dev/null
     )
+  else()
+    add_skipped_test(${test} "it needs a compiler with the options of GCC")
+  endif()
+endforeach()
+
+# Images that the filter does not take are refused by the compiler, in the filter's words.
+foreach(kind Adaptor LabelMap SpecialCoordinates Matrices VariableLength LongDoubles)
+  set(test "NonOscillatorySubdivisionHeaders.Refuse${kind}")
+  if(kind MATCHES "Matrices|VariableLength|LongDoubles")
+    set(message "Pixels to be subdivided are, or consist of, integers")
+  else()
+    set(message "Images to be subdivided are itk::Image or itk::VectorImage")
+  endif()
+  if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+    add_test(
+      NAME ${test}
+      COMMAND "${CMAKE_CXX_COMPILER}" -std=c++17 -fsyntax-only -DREFUSED_IMAGE=${kind}
+        "-I$<JOIN:${include_directories},;-I>" "${CMAKE_CURRENT_SOURCE_DIR}/RefusedImages.cxx"
+      COMMAND_EXPAND_LISTS
+    )
+    set_tests_properties(${test} PROPERTIES PASS_REGULAR_EXPRESSION "${message}")
   else()
     add_skipped_test(${test} "it needs a compiler with the options of GCC")
   endif()

@@ -1,5 +1,5 @@
-# Tests in Python: the rules that the sources keep, the programs as a user runs them, and the experiments. The system's Python comes first, as it is the
-# one that Debian's numpy and other packages install for.
+# Tests in Python: the rules that the sources keep, the programs as a user runs them, and the experiments. The system's
+# Python comes first, as it is the one that Debian's numpy and other packages install for.
 
 find_program(NonOscillatorySubdivision_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
 find_program(NonOscillatorySubdivision_PYTHON python3)

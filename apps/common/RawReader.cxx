@@ -16,7 +16,7 @@ namespace
 [[noreturn]] void
 FailToParse(const std::string & text, const std::string & reason)
 {
-  throw std::invalid_argument("--raw " + text + ": " + reason + "; an example is 1024x1024x800:uint16");
+  throw std::invalid_argument('\'' + text + "': " + reason + "; an example is 1024x1024x800:uint16");
 }
 
 std::uint64_t

@@ -63,7 +63,7 @@ TiffWriter::Begin(const ImageDescription & description)
   CheckForTiff(m_Path, description, m_Warn);
   m_Description = description;
   m_Slices = description.Grid.Size.size() > 2 ? description.Grid.Size[2] : 1;
-  m_Folder = std::make_unique<TemporaryFolder>(m_Path);
+  m_Folder = std::make_unique<TemporaryFolder>(m_Path, m_Warn);
 
   const std::uint64_t   bytes = description.GetNumberOfVoxels() * description.GetVoxelBytes();
   const std::uint64_t   headers = 1000 * m_Slices + bytes / 1000;

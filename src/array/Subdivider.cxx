@@ -34,6 +34,16 @@ GetTileSize(const TileAxes & axes, const TGetSize & getSize)
 
 TileMonitor::~TileMonitor() = default;
 
+bool
+TileMonitor::CountsLosses() const
+{
+  return false;
+}
+
+void
+TileMonitor::Lost(std::size_t, std::size_t)
+{}
+
 struct Workspace::Implementation
 {
   ScratchPool<float>  Float;

@@ -246,12 +246,7 @@ LevelChain::GetScratchBytes(const Box & piece) const
 }
 
 void
-LevelChain::Compute(const Box &       request,
-                    const void *      input,
-                    const Box &       piece,
-                    const ElementType type,
-                    void *            output,
-                    TileMonitor &     monitor)
+LevelChain::Compute(const Box & request, const void * input, const Box & piece, void * output, TileMonitor & monitor)
 {
   const std::vector<Box> requests = this->GetRequests(piece);
   LevelMonitor           between(monitor);
@@ -265,7 +260,8 @@ LevelChain::Compute(const Box &       request,
     {
       buffer->Reserve(CountElements(box) * SizeOf(m_Real));
     }
-    const auto target = this->MakeView<ArrayView>(box, isLast ? type : m_Real, isLast ? output : buffer->GetData());
+    const auto target =
+      this->MakeView<ArrayView>(box, isLast ? m_Output.Component : m_Real, isLast ? output : buffer->GetData());
     Subdivider run(source, m_Wholes[level], target, m_Options, m_Threads, m_Workspace);
     RunTiles(run, m_Threads, isLast ? monitor : between);
     source = { target.Data, target.Type, target.Axes };

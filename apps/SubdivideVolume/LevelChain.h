@@ -38,24 +38,15 @@ public:
   Box
   GetShare(const Box & piece) const;
 
-  /** The real type that is computed with. */
-  itk::Subdivision::ElementType
-  GetRealType() const
-  {
-    return m_Real;
-  }
-
   /** Bytes between the levels for a part of the output. */
   std::uint64_t
   GetScratchBytes(const Box & piece) const;
 
-  /** Computes a part of the output, in the output's type or in the real type, from a box of the input that holds what
-   * the part needs. */
+  /** Computes a part of the output from a box of the input that holds what the part needs. */
   void
   Compute(const Box &                     request,
           const void *                    input,
           const Box &                     piece,
-          itk::Subdivision::ElementType   type,
           void *                          output,
           itk::Subdivision::TileMonitor & monitor);
 

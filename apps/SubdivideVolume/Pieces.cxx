@@ -5,23 +5,18 @@
 
 namespace
 {
-/** The size of a piece: some of one axis, all of the axes before it, one of those after it. */
+/** How many parts each axis is cut into: some of one axis, all of those after it, none of those before. */
 std::vector<std::uint64_t>
-GetPieceSize(const Box & whole, const std::uint64_t number)
+GetCuts(const Box & whole, const std::uint64_t number)
 {
-  std::vector<std::uint64_t> size;
-  for (const Interval & interval : whole)
-  {
-    size.push_back(interval.Size);
-  }
-  std::uint64_t pieces = 1;
+  std::vector<std::uint64_t> cuts(whole.size(), 1);
+  std::uint64_t              pieces = 1;
   for (std::size_t axis = whole.size(); axis-- > 1 && pieces < number;)
   {
-    const std::uint64_t cuts = std::min<std::uint64_t>((number + pieces - 1) / pieces, size[axis]);
-    size[axis] /= cuts;
-    pieces *= (whole[axis].Size + size[axis] - 1) / size[axis];
+    cuts[axis] = std::min<std::uint64_t>((number + pieces - 1) / pieces, whole[axis].Size);
+    pieces *= cuts[axis];
   }
-  return size;
+  return cuts;
 }
 } // namespace
 
@@ -39,18 +34,21 @@ CountElements(const Box & box)
 std::vector<Box>
 SplitIntoPieces(const Box & whole, const std::uint64_t number)
 {
-  const std::vector<std::uint64_t> size = GetPieceSize(whole, number);
+  const std::vector<std::uint64_t> cuts = GetCuts(whole, number);
   std::vector<Box>                 pieces = { whole };
   for (std::size_t axis = whole.size(); axis-- > 0;)
   {
-    std::vector<Box> parts;
+    // Where to cut: sizes differ by one at most.
+    const std::uint64_t size = whole[axis].Size / cuts[axis];
+    const std::uint64_t larger = whole[axis].Size % cuts[axis];
+    std::vector<Box>    parts;
     for (const Box & piece : pieces)
     {
-      for (std::uint64_t start = 0; start < whole[axis].Size; start += size[axis])
+      for (std::uint64_t cut = 0; cut < cuts[axis]; ++cut)
       {
         Box part = piece;
-        part[axis] = { whole[axis].First + static_cast<std::int64_t>(start),
-                       std::min(size[axis], whole[axis].Size - start) };
+        part[axis] = { whole[axis].First + static_cast<std::int64_t>(cut * size + std::min(cut, larger)),
+                       size + (cut < larger ? 1 : 0) };
         parts.push_back(part);
       }
     }

@@ -6,11 +6,11 @@
 
 using namespace itk::Subdivision;
 
-/** Counts what was computed for the progress, and ends the computation where another stage has failed. */
+/** Counts what was computed and what was lost, and ends the computation where another stage has failed. */
 class Pipeline::Monitor : public TileMonitor
 {
 public:
-  Monitor(const Pipeline & pipeline, Progress & progress)
+  Monitor(Pipeline & pipeline, Progress & progress)
     : m_Pipeline(pipeline)
     , m_Progress(progress)
     , m_All(static_cast<double>(CountElements(pipeline.m_Chain.GetWholeOutput())) *
@@ -32,12 +32,26 @@ public:
     return m_Pipeline.m_IsStopped;
   }
 
+  bool
+  CountsLosses() const override
+  {
+    return true;
+  }
+
+  void
+  Lost(const std::size_t notANumber, const std::size_t clamped) override
+  {
+    const std::lock_guard<std::mutex> lock(m_Mutex);
+    m_Pipeline.m_Losses.NotANumber += notANumber;
+    m_Pipeline.m_Losses.Clamped += clamped;
+  }
+
 private:
-  const Pipeline & m_Pipeline;
-  Progress &       m_Progress;
-  const double     m_All;
-  std::mutex       m_Mutex;
-  double           m_Done = 0.0;
+  Pipeline &   m_Pipeline;
+  Progress &   m_Progress;
+  const double m_All;
+  std::mutex   m_Mutex;
+  double       m_Done = 0.0;
 };
 
 namespace
@@ -145,8 +159,7 @@ Pipeline::ReadPieces()
 void
 Pipeline::ComputePieces(Progress & progress)
 {
-  Monitor           monitor(*this, progress);
-  const ElementType type = m_Chain.GetOutput().Component;
+  Monitor monitor(*this, progress);
   for (const Box & piece : m_Plan.Pieces)
   {
     Buffer * const input = m_FullInputs.Pop();
@@ -155,12 +168,12 @@ Pipeline::ComputePieces(Progress & progress)
     {
       return;
     }
-    m_Chain.Compute(input->Voxels, input->Memory.GetData(), piece, type, output->Memory.GetData(), monitor);
-    m_Counter.Include(input->Voxels, input->Memory.GetData(), piece, output->Memory.GetData(), monitor);
-    if (monitor.IsStopped())
+    m_Chain.Compute(input->Voxels, input->Memory.GetData(), piece, output->Memory.GetData(), monitor);
+    if (m_IsStopped)
     {
       return;
     }
+    m_Counter.Include(input->Voxels, input->Memory.GetData(), piece, output->Memory.GetData());
     output->Voxels = piece;
     if (m_Plan.Pieces.size() == 1)
     {

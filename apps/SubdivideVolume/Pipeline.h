@@ -25,6 +25,13 @@ public:
   void
   Run(Progress & progress);
 
+  /** What the output's type could not hold, after the run. */
+  const Losses &
+  GetLosses() const
+  {
+    return m_Losses;
+  }
+
 private:
   struct Buffer
   {
@@ -62,6 +69,7 @@ private:
   Channel<Buffer>     m_FullInputs;
   Channel<Buffer>     m_FreeOutputs;
   Channel<Buffer>     m_FullOutputs;
+  Losses              m_Losses;
   std::atomic<bool>   m_IsStopped{ false };
   std::mutex          m_Mutex;
   std::exception_ptr  m_FirstError;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Plan.h"
 
-#include "VoxelCounter.h"
-
 #include <algorithm>
 #include <fstream>
 #include <stdexcept>
@@ -94,8 +92,7 @@ Planner::Make(const std::uint64_t number, const unsigned int buffers) const
     plan.LargestPiece = std::max(plan.LargestPiece, bytes);
     const std::uint64_t reading = m_Reader.GetScratchBytes(request);
     const std::uint64_t writing = m_Writer == nullptr ? 0 : m_Writer->GetScratchBytes(bytes);
-    const std::uint64_t computing = m_Chain.GetScratchBytes(piece) + VoxelCounter::GetScratchBytes(m_Chain, piece);
-    scratch = std::max(scratch, reading + writing + computing);
+    scratch = std::max(scratch, reading + writing + m_Chain.GetScratchBytes(piece));
   }
   plan.PeakBytes = m_FixedBytes + scratch + plan.Buffers * (plan.LargestRequest + plan.LargestPiece);
   return plan;

@@ -2,7 +2,6 @@
 #include "Statistics.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <type_traits>
 
@@ -95,40 +94,6 @@ CountBlock(const double * elements, const std::size_t count)
 {
   return CountRealBlock<double, std::int64_t>(elements, count);
 }
-
-/** \tparam TInteger as wide as the real numbers, to count along with them */
-template <typename TReal, typename TInteger>
-COUNTING_TARGETS Losses
-CountLossesInBlock(const TReal * values, const std::size_t count, const TReal below, const TReal from)
-{
-  TInteger notANumber = 0;
-  TInteger clamped = 0;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const TReal value = values[i];
-    notANumber += value != value ? 1 : 0;
-    clamped += (value < below ? 1 : 0) + (value >= from ? 1 : 0);
-  }
-  return { static_cast<std::uint64_t>(notANumber), static_cast<std::uint64_t>(clamped) };
-}
-
-template <typename T, typename TReal>
-Losses
-CountLossesOf(const TReal * values, const std::uint64_t count)
-{
-  using TInteger = std::conditional_t<sizeof(TReal) == 4, std::int32_t, std::int64_t>;
-  // One half beyond the least number, which is even, is rounded to it; one half beyond the greatest, which is odd, to
-  // what is out of range. Where a half is too small for the real type, the limit is a power of two.
-  const auto below = static_cast<TReal>(static_cast<double>(std::numeric_limits<T>::min()) - 0.5);
-  const auto from = static_cast<TReal>(static_cast<double>(std::numeric_limits<T>::max()) + 0.5);
-  Losses     losses;
-  for (std::uint64_t first = 0; first < count; first += BlockSize)
-  {
-    losses.Include(
-      CountLossesInBlock<TReal, TInteger>(values + first, std::min(BlockSize, count - first), below, from));
-  }
-  return losses;
-}
 } // namespace
 
 void
@@ -138,13 +103,6 @@ Statistics::Include(const Statistics & other)
   Maximum = std::max(Maximum, other.Maximum);
   NotANumber += other.NotANumber;
   Infinite += other.Infinite;
-}
-
-void
-Losses::Include(const Losses & other)
-{
-  NotANumber += other.NotANumber;
-  Clamped += other.Clamped;
 }
 
 Statistics
@@ -158,42 +116,5 @@ Count(const ElementType type, const void * elements, const std::uint64_t count)
       statistics.Include(CountBlock(values + first, std::min(BlockSize, count - first)));
     }
     return statistics;
-  });
-}
-
-Losses
-CountLosses(const ElementType integers, const ElementType reals, const void * values, const std::uint64_t count)
-{
-  return WithElementType(integers, [=](auto tag) {
-    using Type = typename decltype(tag)::Type;
-    if constexpr (std::is_integral_v<Type>)
-    {
-      return reals == ElementType::Float ? CountLossesOf<Type>(static_cast<const float *>(values), count)
-                                         : CountLossesOf<Type>(static_cast<const double *>(values), count);
-    }
-    else
-    {
-      return Losses{};
-    }
-  });
-}
-
-bool
-ReachesLimits(const ElementType integers, const Statistics & statistics)
-{
-  return WithElementType(integers, [&statistics](auto tag) {
-    using Limits = std::numeric_limits<typename decltype(tag)::Type>;
-    return statistics.Minimum <= static_cast<double>(Limits::min()) ||
-           statistics.Maximum >= static_cast<double>(Limits::max());
-  });
-}
-
-bool
-ExceedsLimits(const ElementType integers, const Statistics & statistics)
-{
-  return WithElementType(integers, [&statistics](auto tag) {
-    using Limits = std::numeric_limits<typename decltype(tag)::Type>;
-    return statistics.Minimum < static_cast<double>(Limits::min()) ||
-           statistics.Maximum > static_cast<double>(Limits::max());
   });
 }

@@ -29,28 +29,11 @@ struct Statistics
 Statistics
 Count(itk::Subdivision::ElementType type, const void * elements, std::uint64_t count);
 
-/** How many real values, which were computed for elements of an integer type, that type could not hold. */
+/** How many voxels' components the output's type could not hold. */
 struct Losses
 {
   std::uint64_t NotANumber = 0; // became 0
   std::uint64_t Clamped = 0;    // became the least or the greatest number of the type
-
-  void
-  Include(const Losses & other);
 };
-
-Losses
-CountLosses(itk::Subdivision::ElementType integers,
-            itk::Subdivision::ElementType reals,
-            const void *                  values,
-            std::uint64_t                 count);
-
-/** Whether the least or the greatest number of an integer type is in a range. */
-bool
-ReachesLimits(itk::Subdivision::ElementType integers, const Statistics & statistics);
-
-/** Whether a range has numbers that an integer type does not. */
-bool
-ExceedsLimits(itk::Subdivision::ElementType integers, const Statistics & statistics);
 
 #endif

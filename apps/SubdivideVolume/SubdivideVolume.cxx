@@ -114,10 +114,11 @@ Subdivide(const Options & options)
   Progress              progress(GetProgressStyle(options));
   LevelChain            chain(reader->GetDescription(), options, threads);
   const Plan            plan = MakePlan(options, chain, *reader, writer.get(), threads);
-  VoxelCounter          counter(chain, reader->GetDescription(), options, threads);
+  VoxelCounter          counter(chain, reader->GetDescription(), threads);
+  Pipeline              pipeline(*reader, chain, *writer, counter, plan);
   WarnOfStreams(options, *reader, *writer, warnings);
   writer->Begin(chain.GetOutput());
-  Pipeline(*reader, chain, *writer, counter, plan).Run(progress);
+  pipeline.Run(progress);
   CheckMessages(options.Input, messages.GetText());
   PassOn(messages, warnings);
   writer->Commit();
@@ -127,7 +128,7 @@ Subdivide(const Options & options)
                                                 chain.GetOutput(),
                                                 counter.GetInput(),
                                                 counter.GetOutput(),
-                                                counter.GetLosses(),
+                                                pipeline.GetLosses(),
                                                 warnings.GetAll(),
                                                 plan.Pieces.size(),
                                                 threads,

@@ -3,6 +3,7 @@
 #include "DicomTags.h"
 
 #include "gdcmFile.h"
+#include "gdcmMediaStorage.h"
 #include "gdcmReader.h"
 #include "gdcmStringFilter.h"
 
@@ -52,6 +53,27 @@ ClaimsToBeDicom(const fs::path & path)
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
   return path.filename().string().front() != '.' && (ending == ".dcm" || ending == ".dicom" || ending == ".ima");
+}
+
+/** Whether a file says that it holds an image of a patient, of a kind that always has rows and columns. */
+bool
+ClaimsToBeImage(const gdcm::File & file)
+{
+  // GDCM counts overlays, curves, tables and registrations among the images.
+  constexpr std::array<const char *, 7> others = { "8", "9", "9.1.3", "10", "11", "66.1", "66.2" };
+  const std::string                     start = "1.2.840.10008.5.1.4.1.1.";
+  gdcm::MediaStorage                    storage;
+  storage.SetFromFile(file);
+  const char * const name = gdcm::MediaStorage::GetMSString(storage);
+  const std::string  kind = name == nullptr ? "" : name;
+  return gdcm::MediaStorage::IsImage(storage) && kind.rfind(start, 0) == 0 &&
+         std::find(others.begin(), others.end(), kind.substr(start.size())) == others.end();
+}
+
+[[noreturn]] void
+FailOfDamage(const fs::path & path)
+{
+  Fail(path, "the DICOM file is damaged; if it does not belong to the volume, move it elsewhere");
 }
 
 template <std::size_t Size>
@@ -255,13 +277,17 @@ ReadDicomHeader(const fs::path & path)
   {
     if (isClaimed)
     {
-      Fail(path, "the DICOM file is damaged; if it does not belong to the volume, move it elsewhere");
+      FailOfDamage(path);
     }
     return std::nullopt;
   }
   const gdcm::DataSet & data = reader.GetFile().GetDataSet();
   if (!data.FindDataElement(Tag(0x0028, 0x0010)) || !data.FindDataElement(Tag(0x0028, 0x0011)))
   {
+    if (ClaimsToBeImage(reader.GetFile()))
+    {
+      FailOfDamage(path);
+    }
     return std::nullopt;
   }
   try

@@ -171,30 +171,31 @@ CheckNoSliceIsMissing(const std::vector<DicomSlice> & slices, const std::vector<
   }
 }
 
+[[noreturn]] void
+RefuseUnevenSteps(const std::vector<DicomSlice> & slices, const std::vector<double> & distances, double step)
+{
+  std::size_t worst = 1;
+  const auto  getWidth = [&distances](std::size_t i) { return distances[i] - distances[i - 1]; };
+  for (std::size_t i = 2; i < distances.size(); ++i)
+  {
+    worst = std::abs(getWidth(i) - step) > std::abs(getWidth(worst) - step) ? i : worst;
+  }
+  std::ostringstream text;
+  text << "most slices are " << step << " mm apart, but " << NameSlices({ slices[worst - 1], slices[worst] }) << " are "
+       << getWidth(worst) << " mm";
+  Refuse(text.str());
+}
+
 void
 CheckEvenlySpaced(const std::vector<DicomSlice> & slices, const std::vector<double> & distances, double step)
 {
-  for (std::size_t i = 1; i < distances.size(); ++i)
-  {
-    const double width = distances[i] - distances[i - 1];
-    if (std::abs(width - step) > GetTolerance(step))
-    {
-      std::ostringstream text;
-      text << "most slices are " << step << " mm apart, but " << NameSlices({ slices[i - 1], slices[i] }) << " are "
-           << width << " mm";
-      Refuse(text.str());
-    }
-  }
   const double spacing = (distances.back() - distances.front()) / static_cast<double>(distances.size() - 1);
   for (std::size_t i = 0; i < distances.size(); ++i)
   {
-    const double off = std::abs(distances[i] - distances.front() - static_cast<double>(i) * spacing);
-    if (off > GetTolerance(spacing))
+    const double place = distances.front() + static_cast<double>(i) * spacing;
+    if (std::abs(distances[i] - place) > GetTolerance(spacing))
     {
-      std::ostringstream text;
-      text << "the spacing of the slices varies: " << NameSlices({ slices[i] }) << " is off its place by " << off
-           << " mm";
-      Refuse(text.str());
+      RefuseUnevenSteps(slices, distances, step);
     }
   }
 }

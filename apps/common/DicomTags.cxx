@@ -4,6 +4,7 @@
 #include "gdcmByteValue.h"
 #include "gdcmSequenceOfItems.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -24,6 +25,14 @@ Trim(const std::string & text)
   const std::string padding(" \0\t\r\n", 5);
   const auto        first = text.find_first_not_of(padding);
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(padding) - first + 1);
+}
+
+/** Without control characters, and without letters of a character set that the terminal need not have. */
+std::string
+MakePrintable(std::string text)
+{
+  std::replace_if(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
 }
 
 /** In the "C" locale, whatever the program's. */
@@ -62,7 +71,7 @@ std::string
 GetDicomText(const gdcm::DataSet & data, const gdcm::Tag & tag)
 {
   const gdcm::ByteValue * const bytes = FindBytes(data, tag);
-  return bytes == nullptr ? "" : Trim(std::string(bytes->GetPointer(), bytes->GetLength()));
+  return bytes == nullptr ? "" : MakePrintable(Trim(std::string(bytes->GetPointer(), bytes->GetLength())));
 }
 
 std::vector<double>

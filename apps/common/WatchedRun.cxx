@@ -5,6 +5,7 @@
 #include "OneLineMessage.h"
 #include "RunRecord.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -215,7 +216,9 @@ QuoteLibraries()
 {
   constexpr std::size_t most = 400;
   const std::string     all = LibraryMessages::GetWholeText();
-  const std::string     text = all.size() > most ? "... " + all.substr(all.size() - most) : all;
+  std::string           text = all.size() > most ? "... " + all.substr(all.size() - most) : all;
+  // It may quote a damaged file.
+  std::replace_if(text.begin(), text.end(), [](char c) { return (c < ' ' && c != '\n') || c > '~'; }, '?');
   return text.find_first_not_of(" \t\r\n") == std::string::npos ? "" : "; it said: " + text;
 }
 

@@ -188,12 +188,10 @@ TEST_F(DicomSeriesTest, SeriesAreListedAndChosen)
     slice.Set(0x00200011, "IS", "-1");
     slice.Write(m_Folder / "second" / std::to_string(i));
   }
-  DicomTestData report = MakeSlice(1, 0, "1.2.3.6");
-  for (const std::uint32_t tag : { 0x00280010U, 0x00280011U, 0x7fe00010U })
+  for (const char * const kind : { "88.11", "66.1", "11.1", "481.5", "104.1" })
   {
-    report.Remove(tag);
+    DicomTestData::MakeReport(std::string("1.2.840.10008.5.1.4.1.1.") + kind).Write(m_Folder / kind);
   }
-  report.Write(m_Folder / "report.dcm");
   const auto all = ListDicomSeries(m_Folder.string());
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0].Uid, "1.2.3.5");
@@ -220,14 +218,17 @@ TEST_F(DicomSeriesTest, SeriesAreListedAndChosen)
 TEST_F(DicomSeriesTest, ADicomdirStandsForItsFolder)
 {
   WriteSlices(3, 1);
-  DicomTestData index = MakeSlice(1, 0);
-  for (const std::uint32_t tag : { 0x00280010U, 0x00280011U, 0x7fe00010U })
-  {
-    index.Remove(tag);
-  }
-  index.Write(m_Folder / "DICOMDIR");
+  DicomTestData::MakeReport("1.2.840.10008.1.3.10").Write(m_Folder / "DICOMDIR");
   EXPECT_EQ(Read<std::int16_t>(*Open({}, "DICOMDIR")), Expect({ 0, 1, 2 }));
   EXPECT_EQ(Read<std::int16_t>(*Open()), Expect({ 0, 1, 2 }));
+}
+
+TEST_F(DicomSeriesTest, AnImageFileThatEndsBeforeItsSizeIsNamed)
+{
+  WriteSlices(3, 1);
+  DicomTestData slice = DicomTestData::MakeReport("1.2.840.10008.5.1.4.1.1.2");
+  slice.Write(m_Folder / "1");
+  EXPECT_TRUE(HasWords(GetRefusal(), { "/1: the DICOM file is damaged" }));
 }
 
 TEST_F(DicomSeriesTest, AFolderWithoutDicom)

@@ -52,6 +52,17 @@ public:
 
   DicomTestData() = default;
 
+  /** A file without an image: a report, or another kind. */
+  static DicomTestData
+  MakeReport(const std::string & kind = "1.2.840.10008.5.1.4.1.1.88.11")
+  {
+    DicomTestData report;
+    report.Set(0x00080016, "UI", kind);
+    report.Set(0x00080018, "UI", "1.2.9");
+    report.Set(0x0020000e, "UI", "1.2.3.6");
+    return report;
+  }
+
   void
   Set(std::uint32_t tag, const std::string & kind, const std::string & value)
   {
@@ -116,7 +127,7 @@ public:
   {
     const std::array<const char *, 3> names = { "1.2.840.10008.1.2", "1.2.840.10008.1.2.1", "1.2.840.10008.1.2.2" };
     DicomTestData                     meta;
-    meta.Set(0x00020002, "UI", "1.2.840.10008.5.1.4.1.1.2");
+    meta.Set(0x00020002, "UI", m_Elements.at(0x00080016).Value);
     meta.Set(0x00020003, "UI", "1.2.3.4");
     meta.Set(0x00020010, "UI", names[static_cast<std::size_t>(syntax)]);
     const std::string encoded = meta.Encode(Syntax::ExplicitLittle);

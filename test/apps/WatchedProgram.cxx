@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program whose run ends in the way its first argument names, for watched_run_test.py. The second one is a file to be
-// made in a temporary folder first.
+// made in a temporary folder first; of "dicom", the file or folder to read.
 
+#include "Dicom.h"
 #include "Interrupt.h"
 #include "LibraryMessages.h"
 #include "WatchedRun.h"
@@ -15,6 +16,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <unistd.h>
 
@@ -56,9 +58,30 @@ Commit(const fs::path & folder)
   return 0;
 }
 
+/** Reads all voxels. */
+int
+ReadDicom(const std::string & path)
+{
+  const LibraryMessages messages;
+  const auto            reader = OpenDicom(path, {}, [](const std::string &) {});
+  const auto &          description = reader->GetDescription();
+  itk::Subdivision::Box box;
+  for (const std::uint64_t size : description.Grid.Size)
+  {
+    box.push_back({ 0, size });
+  }
+  std::vector<char> voxels(description.GetNumberOfVoxels() * description.GetVoxelBytes());
+  reader->Read(box, voxels.data());
+  return 0;
+}
+
 int
 Run(const std::string & way, const fs::path & file)
 {
+  if (way == "dicom")
+  {
+    return ReadDicom(file);
+  }
   const LibraryMessages messages;
   const fs::path        folder = file.parent_path() / ".partial";
   if (!file.empty())

@@ -110,8 +110,12 @@ void
 Run(const Options & options)
 {
   const LibraryMessages messages;
+  const WatchedTask     task("cannot process " + options.Input);
   itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(GetNumberOfThreads(options));
-  const InputImage     input = NameFile(options.Input, [&options] { return OpenInput(options.Input, options.Series); });
+  const InputImage     input = NameFile(options.Input, [&options] {
+    const WatchedOpening opening(options.Input);
+    return OpenInput(options.Input, options.Series);
+  });
   OutputImage          output(options.Output, options.Compress);
   const PixelComponent component =
     options.OutputType == "same" ? input.Component : GetPixelComponent(options.OutputType);

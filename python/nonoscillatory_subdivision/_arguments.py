@@ -19,6 +19,7 @@ Region = Sequence[slice] | slice
 
 # What the array layer computes with directly.
 NATIVE_TYPES = frozenset(np.dtype(name) for name in "bBhHiIqQfd")
+SCHEMES = tuple(_core.schemes())
 LABEL_SCHEMES = ("restored", "bspline", "linear")
 BOUNDARIES = ("nearest", "mirror", "periodic")
 LARGEST_DIMENSION = 4
@@ -121,6 +122,8 @@ def make_options(
 ) -> _core.Options:
     if not isinstance(scheme, str):
         raise TypeError(f"scheme {scheme!r} is no string")
+    if scheme not in SCHEMES:
+        raise ValueError(f"scheme {scheme!r} is none of {', '.join(SCHEMES)}")
     number = checked_tension(tension)
     if is_labels:
         if scheme not in LABEL_SCHEMES:
@@ -128,7 +131,11 @@ def make_options(
         if scheme != "restored":
             number = 2.0  # The default of labels, 0, is a tension of the restored scheme alone; the others have none.
     flags = [axis in axes for axis in range(dimension)]
-    return _core.Options(scheme, number, flags, *checked_boundary(boundary))
+    rule, constant = checked_boundary(boundary)
+    try:
+        return _core.Options(scheme, number, flags, rule, constant)
+    except ValueError as error:
+        raise ValueError(f"tension {tension}: {error}") from None
 
 
 def checked_region(region: Region | None, shape: tuple[int, ...]) -> tuple[list[int], list[int]]:

@@ -12,11 +12,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
+from . import _core
+
 Boundary = str | float
 Region = Sequence[slice] | slice
 
 # What the array layer computes with directly.
 NATIVE_TYPES = frozenset(np.dtype(name) for name in "bBhHiIqQfd")
+SCHEMES = tuple(_core.schemes())
+LABEL_SCHEMES = ("restored", "bspline", "linear")
 BOUNDARIES = ("nearest", "mirror", "periodic")
 LARGEST_DIMENSION = 4
 LARGEST_LEVELS = 3
@@ -113,10 +117,25 @@ def checked_tension(tension: float) -> float:
     return float(tension)
 
 
-def checked_scheme(scheme: str) -> str:
+def make_options(
+    scheme: str, tension: float, boundary: Boundary, axes: Sequence[int], dimension: int, is_labels: bool
+) -> _core.Options:
     if not isinstance(scheme, str):
         raise TypeError(f"scheme {scheme!r} is no string")
-    return scheme
+    if scheme not in SCHEMES:
+        raise ValueError(f"scheme {scheme!r} is none of {', '.join(SCHEMES)}")
+    number = checked_tension(tension)
+    if is_labels:
+        if scheme not in LABEL_SCHEMES:
+            raise ValueError(f"scheme {scheme!r} is none of those for labels: {', '.join(LABEL_SCHEMES)}")
+        if scheme != "restored":
+            number = 2.0  # The default of labels, 0, is a tension of the restored scheme alone; the others have none.
+    flags = [axis in axes for axis in range(dimension)]
+    rule, constant = checked_boundary(boundary)
+    try:
+        return _core.Options(scheme, number, flags, rule, constant)
+    except ValueError as error:
+        raise ValueError(f"tension {tension}: {error}") from None
 
 
 def checked_region(region: Region | None, shape: tuple[int, ...]) -> tuple[list[int], list[int]]:

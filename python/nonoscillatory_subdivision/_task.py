@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from . import _arguments, _core, images
+from . import _arguments, images
 from ._arguments import Boundary, Region
 from ._run import Indices, Progress, Run, doubled_shape
 
@@ -88,11 +88,8 @@ class Task:
             raise TypeError(f"progress {progress!r} cannot be called")
         axes = self.checked_axes(array.ndim)
         return Run(
-            options=_core.Options(
-                _arguments.checked_scheme(self.scheme),
-                _arguments.checked_tension(self.tension),
-                [axis in axes for axis in range(array.ndim)],
-                *_arguments.checked_boundary(self.boundary),
+            options=_arguments.make_options(
+                self.scheme, self.tension, self.boundary, axes, array.ndim, self.is_labels
             ),
             shape=array.shape,
             axes=axes,

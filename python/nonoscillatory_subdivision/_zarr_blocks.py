@@ -35,6 +35,7 @@ class Job:
     boundary: Boundary
     axes: tuple[int, ...]
     levels: int
+    is_labels: bool
     # The size of a block of the output: whole chunks, or whole shards, so that no two blocks write to the same one.
     block: tuple[int, ...]
 
@@ -106,19 +107,14 @@ def _compute(job: Job, first: Sequence[int], result: NDArray[Any]) -> None:
         halo = 2 * _core.radius(job.scheme)
         repeats = [ceil(halo / size) if axis in job.axes else 0 for axis, size in enumerate(array.shape)]
         repeats = [2 * repeat + 1 for repeat in repeats]
-    name, constant = _arguments.checked_boundary(job.boundary)
+    boundary = "nearest" if job.boundary == "periodic" else job.boundary
     run = Run(
-        options=_core.Options(
-            job.scheme,
-            job.tension,
-            [axis in job.axes for axis in range(array.ndim)],
-            "nearest" if name == "periodic" else name,
-            constant,
-        ),
+        options=_arguments.make_options(job.scheme, job.tension, boundary, job.axes, array.ndim, job.is_labels),
         shape=tuple(size * repeat for size, repeat in zip(array.shape, repeats)),
         axes=job.axes,
         levels=job.levels,
         input_type=array.dtype,
+        is_labels=job.is_labels,
     )
     middle = [size * (repeat // 2) for size, repeat in zip(array.shape, repeats)]
     shifted = [start + (offset << job.levels) for start, offset in zip(first, middle)]

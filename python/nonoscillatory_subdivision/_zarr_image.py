@@ -52,7 +52,7 @@ def _position(name: str) -> int:
         raise ValueError(f"axis {name!r}: axes of a plain array are numbers, 0 is the first") from None
 
 
-def open_image(path: str) -> Image:
+def open_image(path: str, is_labels: bool) -> Image:
     try:
         node = zarr.open(path, mode="r")
     except (FileNotFoundError, zarr.errors.NodeNotFoundError):
@@ -61,8 +61,8 @@ def open_image(path: str) -> Image:
         return Image(path, node, path)
     attributes: dict[str, Any] = node.attrs.asdict()
     described: dict[str, Any] = attributes.get("ome", attributes)
-    if "image-label" in described:
-        raise ValueError(f"{path} is a label image: subdivide() would blend its labels")
+    if "image-label" in described and not is_labels:
+        raise ValueError(f"{path} is a label image, whose labels would be blended: say that they are labels")
     if not described.get("multiscales"):
         raise ValueError(f"{path} is a group without an image (no 'multiscales'): name the group of one image, or an array")
     multiscale: dict[str, Any] = described["multiscales"][0]
@@ -73,10 +73,12 @@ def open_image(path: str) -> Image:
     return Image(path, node[name], f"{path.rstrip('/')}/{name}", attributes, multiscale)
 
 
-def create_array(path: str, image: Image, axes: Sequence[int], levels: int, chunks: Sequence[int] | None) -> Any:
+def create_array(
+    path: str, image: Image, axes: Sequence[int], levels: int, chunks: Sequence[int] | None, is_labels: bool
+) -> Any:
     """An empty array for the result, like that of the image in all but its shape; chunks, if any are given."""
     source = image.array
-    dtype = _arguments.result_type(source.dtype, None)
+    dtype = (_arguments.label_type if is_labels else _arguments.result_type)(source.dtype, None)
     same_type = dtype == source.dtype.newbyteorder("=")
     metadata = source.metadata
     options: dict[str, Any] = {}
@@ -120,6 +122,9 @@ def write_new_group(path: str, image: Image, axes: Sequence[int], levels: int, a
     if "omero" in described:
         # How channels are shown; the slice to show first is left out, as it is one of the old grid.
         result["omero"] = {key: value for key, value in described["omero"].items() if key != "rdefs"}
+    if "image-label" in described:
+        # Colours and the like; the image that the labels belong to is another one.
+        result["image-label"] = {key: value for key, value in described["image-label"].items() if key != "source"}
     if image.is_version_5:
         result = {"ome": {"version": described["version"]} | result}
     zarr.open_group(path, mode="r+").attrs.update(result)

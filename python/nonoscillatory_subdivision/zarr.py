@@ -9,7 +9,9 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict, dataclass
 from itertools import islice
+from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +19,7 @@ import distributed
 import tqdm
 import zarr
 
-from . import _arguments, _core, _zarr_image, schemes
+from . import _arguments, _zarr_image, schemes
 from ._arguments import Boundary
 from ._zarr_blocks import Job, Progress, block_size, compute_block
 
@@ -31,12 +33,13 @@ def subdivide(
     target: str | None,
     client: distributed.Client,
     *,
-    scheme: str = "nonoscillatory",
-    tension: float = 2.0,
+    scheme: str | None = None,
+    tension: float | None = None,
     boundary: Boundary = "nearest",
     axes: Sequence[str] | None = None,
     levels: int = 1,
     chunks: Sequence[int] | None = None,
+    labels: bool = False,
     report: Callable[[int, int], None] = lambda done, all_blocks: None,
 ) -> None:
     """Double the resolution of an image in a Zarr store.
@@ -55,12 +58,14 @@ def subdivide(
     client : distributed.Client
         Whose workers compute the blocks.
     scheme, tension, boundary, levels
-        As for `nonoscillatory_subdivision.subdivide`.
+        As for `nonoscillatory_subdivision.subdivide`, or `subdivide_labels`, with the same defaults.
     axes : sequence of str, optional
         The names of axes to subdivide, or positions in a plain array. Default: those of space; all or the last three of
         a plain array.
     chunks : sequence of int, optional
         The chunks of the result. Default: as large as the source's, and in shards as the source's.
+    labels : bool, optional
+        Whether the values are labels.
     report : callable, optional
         Called with the number of finished blocks and of all.
 
@@ -69,21 +74,38 @@ def subdivide(
     ValueError, TypeError
         If there is no image, an argument does not fit it, or the target exists.
     """
-    image = _zarr_image.open_image(source)
-    positions = image.axes_to_subdivide(axes)
+    image = _zarr_image.open_image(source, labels)
     place = _Place(image, target)
-    _check(image, scheme, tension, boundary, levels, positions, chunks)
-    job = _prepare(image, place, scheme, float(tension), boundary, positions, levels, chunks)
-    total = 1
-    for count in job.grid():
-        total *= count
+    wanted = _Wanted(
+        scheme=scheme if scheme is not None else "restored" if labels else "nonoscillatory",
+        tension=float(tension) if tension is not None else 0.0 if labels else 2.0,
+        boundary=boundary,
+        axes=image.axes_to_subdivide(axes),
+        levels=levels,
+        is_labels=labels,
+    )
+    _check(image, wanted, chunks)
+    job = _prepare(image, place, wanted, chunks)
+    total = prod(job.grid())
     finished = place.progress.finished()
     report(len(finished), total)
     missing = (block for block in range(total) if block not in finished)
     for done in _compute_blocks(client, job, missing, str(place.progress.folder)):
         report(len(finished) + done, total)
-    place.describe(positions, levels)
+    place.describe(wanted)
     place.progress.end()
+
+
+@dataclass(frozen=True)
+class _Wanted:
+    """What is to be computed: part of a job."""
+
+    scheme: str
+    tension: float
+    boundary: Boundary
+    axes: tuple[int, ...]
+    levels: int
+    is_labels: bool
 
 
 class _Place:
@@ -108,50 +130,37 @@ class _Place:
     def exists(self) -> bool:
         return (self.array if self._is_level else self.folder).exists()
 
-    def create(self, positions: Sequence[int], levels: int, chunks: Sequence[int] | None) -> Any:
+    def create(self, wanted: _Wanted, chunks: Sequence[int] | None) -> Any:
         if self._name is not None and not self._is_level:
             zarr.create_group(str(self.folder), zarr_format=self._image.array.metadata.zarr_format)
-        return _zarr_image.create_array(str(self.array), self._image, positions, levels, chunks)
+        return _zarr_image.create_array(
+            str(self.array), self._image, wanted.axes, wanted.levels, chunks, wanted.is_labels
+        )
 
-    def describe(self, positions: Sequence[int], levels: int) -> None:
+    def describe(self, wanted: _Wanted) -> None:
         """Comes last, so that nobody takes an unfinished image for a finished one."""
         if self._name is None:
             return
         if self._is_level:
-            _zarr_image.prepend_level(self._image, positions, levels, self._name)
+            _zarr_image.prepend_level(self._image, wanted.axes, wanted.levels, self._name)
         else:
-            _zarr_image.write_new_group(str(self.folder), self._image, positions, levels, self._name)
+            _zarr_image.write_new_group(str(self.folder), self._image, wanted.axes, wanted.levels, self._name)
 
 
-def _check(
-    image: _zarr_image.Image,
-    scheme: str,
-    tension: float,
-    boundary: Boundary,
-    levels: int,
-    positions: Sequence[int],
-    chunks: Sequence[int] | None,
-) -> None:
-    _arguments.checked_type(image.array.dtype, image.array_path)
+def _check(image: _zarr_image.Image, wanted: _Wanted, chunks: Sequence[int] | None) -> None:
+    result_type = _arguments.label_type if wanted.is_labels else _arguments.result_type
+    result_type(_arguments.checked_type(image.array.dtype, image.array_path), None)
     if 0 in image.array.shape:
         raise ValueError(f"{image.array_path} has shape {image.array.shape}: there is nothing to subdivide")
-    _arguments.checked_levels(levels)
-    flags = [axis in positions for axis in range(image.array.ndim)]
-    _core.Options(scheme, tension, flags, *_arguments.checked_boundary(boundary))
+    _arguments.checked_levels(wanted.levels)
+    _arguments.make_options(
+        wanted.scheme, wanted.tension, wanted.boundary, wanted.axes, image.array.ndim, wanted.is_labels
+    )
     if chunks is not None and (len(chunks) != image.array.ndim or min(chunks) < 1):
         raise ValueError(f"chunks {tuple(chunks)} are not {image.array.ndim} positive numbers")
 
 
-def _prepare(
-    image: _zarr_image.Image,
-    place: _Place,
-    scheme: str,
-    tension: float,
-    boundary: Boundary,
-    positions: tuple[int, ...],
-    levels: int,
-    chunks: Sequence[int] | None,
-) -> Job:
+def _prepare(image: _zarr_image.Image, place: _Place, wanted: _Wanted, chunks: Sequence[int] | None) -> Job:
     """The job; its output is created unless a run of this very job began before."""
 
     def job_for(unit: Sequence[int], shape: Sequence[int]) -> Job:
@@ -160,12 +169,8 @@ def _prepare(
             output=str(place.array.resolve()),
             shape=image.array.shape,
             dtype=str(image.array.dtype),
-            scheme=scheme,
-            tension=tension,
-            boundary=boundary,
-            axes=positions,
-            levels=levels,
-            block=block_size(unit, shape, positions),
+            block=block_size(unit, shape, wanted.axes),
+            **asdict(wanted),
         )
 
     if place.progress.exists():
@@ -180,7 +185,7 @@ def _prepare(
         return job
     if place.exists():
         raise ValueError(f"{place.array if place.array.exists() else place.folder} exists: remove it or choose another name")
-    output = place.create(positions, levels, chunks)
+    output = place.create(wanted, chunks)
     job = job_for(output.shards or output.chunks, output.shape)
     place.progress.begin(job)
     return job
@@ -210,8 +215,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("input", metavar="IN", help="Zarr array, or group of an OME-Zarr image (0.4 or 0.5)")
     parser.add_argument("output", metavar="OUT", nargs="?", help="the folder to write; must not exist")
     parser.add_argument("--append-level", action="store_true", help="no OUT: put the result before IN's finest level")
-    parser.add_argument("--scheme", default="nonoscillatory", choices=schemes())
-    parser.add_argument("--tension", type=float, default=2.0)
+    parser.add_argument("--labels", action="store_true", help="IN is a label map; only labels that are there appear")
+    parser.add_argument("--scheme", choices=schemes(), help="default: nonoscillatory, for labels restored")
+    parser.add_argument("--tension", type=float, help="default: 2, for labels 0")
     parser.add_argument("--boundary", type=_boundary, default="nearest", help="nearest, mirror, periodic or a number")
     parser.add_argument("--axes", type=lambda text: text.split(","), help="such as y,x; default: those of space")
     parser.add_argument("--levels", type=int, default=1, help="1 to 3: 2, 4 or 8 times as fine")
@@ -263,6 +269,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 axes=options.axes,
                 levels=options.levels,
                 chunks=options.chunks,
+                labels=options.labels,
                 report=report,
             )
     except KeyboardInterrupt:

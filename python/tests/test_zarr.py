@@ -11,7 +11,7 @@ import time
 import numpy as np
 import pytest
 
-from nonoscillatory_subdivision import subdivide
+from nonoscillatory_subdivision import subdivide, subdivide_labels
 
 zarr = pytest.importorskip("zarr")
 zarr_subdivision = pytest.importorskip("nonoscillatory_subdivision.zarr")
@@ -176,6 +176,23 @@ def test_time_and_channels_are_not_subdivided(tmp_path, client, volume):
         for channel in range(3):
             np.testing.assert_array_equal(result[time_point, channel], subdivide(series[time_point, channel]))
     assert zarr.open_group(target).attrs["omero"] == {"channels": [{"label": "a"}]}
+
+
+@pytest.mark.parametrize("version", ["0.4", "0.5"])
+def test_labels(tmp_path, client, volume, small_blocks, version):
+    source, target = str(tmp_path / "in.zarr"), str(tmp_path / "out.zarr")
+    labels = (volume // 1000 * (volume > 2000)).astype(np.uint8)
+    write_ome(source, labels, version)
+    group = zarr.open_group(source)
+    description = {"colors": [{"label-value": 2, "rgba": [255, 0, 0, 255]}], "source": {"image": "../../"}}
+    described = {"image-label": description}
+    group.attrs.update(described if version == "0.4" else {"ome": group.attrs["ome"] | described})
+    with pytest.raises(ValueError, match="labels would be blended"):
+        zarr_subdivision.subdivide(source, target, client)
+    zarr_subdivision.subdivide(source, target, client, labels=True)
+    np.testing.assert_array_equal(zarr.open_array(target + "/0")[...], subdivide_labels(labels))
+    attributes = zarr.open_group(target).attrs.asdict()
+    assert attributes.get("ome", attributes)["image-label"] == {"colors": description["colors"]}
 
 
 def test_a_worker_is_killed(tmp_path, volume, small_blocks):

@@ -391,7 +391,6 @@ void
 ExpectRounding(const Target & target, const bool isInterleaved)
 {
   using Limits = std::numeric_limits<TElement>;
-  const double   largest = static_cast<double>(Limits::max());
   const double   lowest = static_cast<double>(Limits::lowest());
   std::vector<T> values{ T(0.5),
                          T(1.5),

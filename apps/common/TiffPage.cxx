@@ -201,6 +201,29 @@ IsThumbnail(TIFF * tiff)
   return TIFFGetField(tiff, TIFFTAG_OSUBFILETYPE, &oldType) != 0 && oldType == OFILETYPE_REDUCEDIMAGE;
 }
 
+void
+CheckTiffDirectory(const TiffHandle & tiff, const InputFile & file)
+{
+  const bool          isBig = file.ReadTextAt(2, 2).find(43) != std::string::npos;
+  const std::size_t   countBytes = isBig ? 8 : 2;
+  const std::uint64_t entryBytes = isBig ? 20 : 12;
+  const std::uint64_t linkBytes = isBig ? 8 : 4;
+  const std::uint64_t offset = TIFFCurrentDirOffset(tiff);
+  const std::string   bytes = file.ReadTextAt(offset, countBytes);
+  std::uint64_t       entries = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+  {
+    const std::size_t byte = TIFFIsBigEndian(tiff) != 0 ? i : bytes.size() - 1 - i;
+    entries = 256 * entries + static_cast<unsigned char>(bytes[byte]);
+  }
+  // libtiff reads no directory with more than 65535 entries.
+  if (bytes.size() < countBytes || entries > 65535 ||
+      file.GetSize() - offset < countBytes + entries * entryBytes + linkBytes)
+  {
+    tiff.Fail("it is truncated within its header");
+  }
+}
+
 TiffPage
 DescribeTiffPage(const TiffHandle & tiff, const std::string & name, std::uint64_t fileSize)
 {

@@ -3,6 +3,7 @@
 #define TiffPage_h
 
 #include "ImageDescription.h"
+#include "InputFile.h"
 #include "TiffHandle.h"
 
 #include <cstdint>
@@ -47,6 +48,12 @@ struct TiffPage
 /** Whether the current page is a smaller copy or a mask of another one. */
 bool
 IsThumbnail(TIFF * tiff);
+
+/** Checks that the current page's directory lies within the file, with the link to the next page at its end: libtiff
+ * takes a link that was cut off for the end of a file that is whole.
+ * \throw std::runtime_error */
+void
+CheckTiffDirectory(const TiffHandle & tiff, const InputFile & file);
 
 /** Describes the current page, checks that its pixels can be read as they are and that none of its strips or tiles lies
  * beyond the end of the file.

@@ -94,6 +94,7 @@ TiffReader::ReadPages()
       m_LargestStrile =
         std::max<std::uint64_t>(m_LargestStrile, page.IsTiled ? TIFFTileSize64(m_Tiff) : TIFFStripSize64(m_Tiff));
     }
+    CheckTiffDirectory(m_Tiff, m_File);
     if (TIFFLastDirectory(m_Tiff) != 0)
     {
       break;

@@ -91,6 +91,7 @@ private:
         offset = TIFFCurrentDirOffset(m_Tiff);
         m_Page = DescribeTiffPage(m_Tiff, "its page", m_File.GetSize());
       }
+      CheckTiffDirectory(m_Tiff, m_File);
       if (TIFFLastDirectory(m_Tiff) != 0)
       {
         break;

@@ -45,6 +45,7 @@ function(add_python_test script)
 endfunction()
 
 add_python_test(subdivide_volume_test.py PROGRAMS SubdivideVolume)
+add_python_test(subdivide_volume_crashes_test.py PROGRAMS SubdivideVolume)
 add_python_test(compare_volumes_test.py PROGRAMS CompareVolumes)
 foreach(script experiments_test.py experiments_surfaces_test.py)
   add_python_test(${script}

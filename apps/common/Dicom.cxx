@@ -3,6 +3,7 @@
 
 #ifdef APPS_HAVE_GDCM
 #  include "DicomReader.h"
+#  include "RegularInput.h"
 #endif
 
 #include <algorithm>
@@ -23,6 +24,7 @@ IsDicomFile(const std::string & path)
 std::unique_ptr<VolumeReader>
 OpenDicom(const std::string & path, const InputOptions & options, const WarningSink & warn)
 {
+  CheckIsRegularInput(path);
   DicomSeries series = ChooseDicomSeries(path, FindDicomSeries(path), options.Series);
   LeaveOutCopies(series, warn);
   return std::make_unique<DicomReader>(path, std::move(series), options, warn);
@@ -31,12 +33,17 @@ OpenDicom(const std::string & path, const InputOptions & options, const WarningS
 std::vector<DicomSeriesInfo>
 ListDicomSeries(const std::string & folder)
 {
+  CheckIsRegularInput(folder);
   std::vector<DicomSeriesInfo> all;
   for (const DicomSeries & series : FindDicomSeries(folder))
   {
     const DicomHeader & first = series.Headers.front();
     all.push_back(
       { first.SeriesUid, first.Description, first.Modality, series.GetNumberOfFrames(), first.Columns, first.Rows });
+  }
+  if (all.empty())
+  {
+    throw std::runtime_error("cannot read " + folder + ": it holds no DICOM series with images");
   }
   return all;
 }

@@ -27,7 +27,8 @@ IsDicomFile(const std::string & path);
 std::unique_ptr<VolumeReader>
 OpenDicom(const std::string & path, const InputOptions & options, const WarningSink & warn);
 
-/** The series of a folder and of the folders below it, in the order that --series counts them in, from 1. */
+/** The series of a folder and of the folders below it, in the order that --series counts them in, from 1.
+ * \throw std::runtime_error if there are none */
 std::vector<DicomSeriesInfo>
 ListDicomSeries(const std::string & folder);
 

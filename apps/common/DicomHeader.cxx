@@ -39,6 +39,49 @@ GetBytesLeft(std::istream & file, std::uint64_t size)
            : std::optional<std::uint64_t>(size - static_cast<std::uint64_t>(place));
 }
 
+/** Whether all fragments of compressed voxels, which come next in the file, are there. GDCM would decode a part of them
+ * without a word. */
+bool
+HasAllFragments(std::istream & file, std::uint64_t size)
+{
+  while (true)
+  {
+    std::array<unsigned char, 8> item{};
+    file.read(reinterpret_cast<char *>(item.data()), item.size());
+    constexpr std::array<unsigned char, 4> fragment = { 0xfe, 0xff, 0x00, 0xe0 };
+    constexpr std::array<unsigned char, 4> end = { 0xfe, 0xff, 0xdd, 0xe0 };
+    if (file && std::equal(end.begin(), end.end(), item.begin()))
+    {
+      return true;
+    }
+    if (!file || !std::equal(fragment.begin(), fragment.end(), item.begin()))
+    {
+      return file.eof() && file.gcount() == 0; // some writers leave the end mark out
+    }
+    const std::uint64_t length =
+      item[4] + (std::uint64_t{ item[5] } << 8) + (std::uint64_t{ item[6] } << 16) + (std::uint64_t{ item[7] } << 24);
+    const auto left = GetBytesLeft(file, size);
+    if (length > left.value_or(0))
+    {
+      return false;
+    }
+    file.seekg(static_cast<std::streamoff>(length), std::ios::cur);
+  }
+}
+
+/** Whether all voxels, which come next in the file, are there. */
+bool
+HasAllVoxels(const DicomHeader & header, std::istream & file)
+{
+  const std::uint64_t size = fs::file_size(header.FileName);
+  const auto          left = GetBytesLeft(file, size);
+  if (!left || header.IsCompressed)
+  {
+    return left && HasAllFragments(file, size);
+  }
+  return *left >= header.GetFrameBytes() * header.Frames.size();
+}
+
 /** Whether the file says that it is DICOM: by the letters behind the preamble, or by its name's ending. */
 bool
 ClaimsToBeDicom(const fs::path & path)
@@ -297,12 +340,8 @@ ReadDicomHeader(const fs::path & path)
     const gdcm::TransferSyntax & syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
     header.IsCompressed = syntax.IsEncapsulated();
     header.IsBigEndian = syntax.GetSwapCode() == gdcm::SwapCode::BigEndian;
-    if (syntax != gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian) // its places are not those of the file
-    {
-      const auto bytes = GetBytesLeft(file, fs::file_size(path));
-      const auto needed = header.IsCompressed ? 1 : header.GetFrameBytes() * header.Frames.size();
-      header.IsTruncated = !bytes || *bytes < needed;
-    }
+    const bool isDeflated = syntax == gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian;
+    header.IsTruncated = !isDeflated && !HasAllVoxels(header, file); // deflated, its places are not those of the file
     return header;
   }
   catch (const std::runtime_error & error)

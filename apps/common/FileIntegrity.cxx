@@ -9,6 +9,9 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -154,6 +157,40 @@ CheckGipl(const std::string & path, const itk::ImageIOBase & imageIO)
   CheckEnd(path, bytes);
 }
 
+[[noreturn]] void
+FailOfEnd(const std::string & path)
+{
+  throw std::runtime_error("cannot read " + path + ": it is truncated");
+}
+
+/** The end marker must come after the last start of a scan; no scan's data looks like a marker. */
+void
+CheckJpeg(const std::string & path)
+{
+  std::ifstream     file(path, std::ios::binary);
+  const std::string bytes{ std::istreambuf_iterator<char>(file), {} };
+  const auto        scan = bytes.rfind("\xff\xda");
+  if (scan == std::string::npos || bytes.find("\xff\xd9", scan) == std::string::npos)
+  {
+    FailOfEnd(path);
+  }
+}
+
+/** The header tells the size of the file. */
+void
+CheckBmp(const std::string & path)
+{
+  std::ifstream                file(path, std::ios::binary);
+  std::array<unsigned char, 6> start{};
+  file.read(reinterpret_cast<char *>(start.data()), start.size());
+  const std::uint64_t size =
+    start[2] + (std::uint64_t{ start[3] } << 8) + (std::uint64_t{ start[4] } << 16) + (std::uint64_t{ start[5] } << 24);
+  if (!file || std::filesystem::file_size(path) < size)
+  {
+    FailOfEnd(path);
+  }
+}
+
 /** Reads the last voxel alone: reading regions, these formats do tell if there is nothing. */
 void
 CheckLastVoxel(const std::string & path, itk::ImageIOBase & imageIO)
@@ -192,6 +229,14 @@ CheckFileIsWhole(const std::string & path, itk::ImageIOBase & imageIO)
   else if (format == "GiplImageIO")
   {
     CheckGipl(path, imageIO);
+  }
+  else if (format == "JPEGImageIO")
+  {
+    CheckJpeg(path);
+  }
+  else if (format == "BMPImageIO")
+  {
+    CheckBmp(path);
   }
   else if (dynamic_cast<itk::StreamingImageIOBase *>(&imageIO) != nullptr && imageIO.CanStreamRead() &&
            imageIO.GetFileType() != itk::IOFileEnum::ASCII)

@@ -103,6 +103,12 @@ TEST_F(DicomPixelsTest, CompressedSlices)
       ASSERT_TRUE(writer.Write());
     }
     EXPECT_EQ(Read<std::int16_t>(*Open()), Expect({ 0, 1, 2 })) << gdcm::TransferSyntax(syntax);
+    const auto size = std::filesystem::file_size(m_Folder / "1");
+    for (const std::uintmax_t missing : { 9, 12, 20 })
+    {
+      std::filesystem::resize_file(m_Folder / "1", size - missing);
+      EXPECT_TRUE(HasWords(GetRefusal(), { "1 is truncated" })) << missing << ' ' << gdcm::TransferSyntax(syntax);
+    }
   }
 }
 

@@ -236,6 +236,8 @@ TEST_F(DicomSeriesTest, AFolderWithoutDicom)
   EXPECT_TRUE(HasWords(GetRefusal(), { "no DICOM series" }));
   std::ofstream(m_Folder / "a.txt") << "text";
   EXPECT_TRUE(HasWords(GetRefusal(), { "no DICOM series" }));
+  EXPECT_TRUE(HasWords(GetRefusal({}, "none"), { "none: No such file" }));
+  EXPECT_THROW(ListDicomSeries(m_Folder.string()), std::runtime_error);
 }
 
 TEST_F(DicomSeriesTest, ImagesWithoutPositionAreStackedOnDemandOnly)

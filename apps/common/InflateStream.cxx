@@ -2,44 +2,20 @@
 #include "InflateStream.h"
 
 #include <algorithm>
-#include <new>
 #include <stdexcept>
-
-#include <zlib.h>
-
-struct InflateStream::State
-{
-  State()
-  {
-    constexpr int anyHeader = 32 + MAX_WBITS;
-    if (inflateInit2(&Stream, anyHeader) != Z_OK)
-    {
-      throw std::bad_alloc();
-    }
-  }
-  ~State() { inflateEnd(&Stream); }
-  State(const State &) = delete;
-  State &
-  operator=(const State &) = delete;
-
-  z_stream Stream = {};
-  bool     HasEnded = false;
-};
 
 InflateStream::InflateStream(const FileSection & section)
   : m_Section(section)
   , m_File(section.Path)
   , m_Compressed(ScratchBytes / 2)
-{
-  this->Restart();
-}
-
-InflateStream::~InflateStream() = default;
+{}
 
 void
 InflateStream::Restart()
 {
-  m_State = std::make_unique<State>();
+  m_Inflater.reset();
+  m_IsDamaged = false;
+  m_Available = 0;
   m_CompressedPosition = 0;
   m_Position = 0;
 }
@@ -47,48 +23,39 @@ InflateStream::Restart()
 bool
 InflateStream::Fill()
 {
-  const std::uint64_t count = std::min<std::uint64_t>(m_Compressed.size(), m_Section.Size - m_CompressedPosition);
-  m_File.ReadAt(m_Section.Offset + m_CompressedPosition, m_Compressed.data(), count);
-  m_CompressedPosition += count;
-  m_State->Stream.next_in = reinterpret_cast<unsigned char *>(m_Compressed.data());
-  m_State->Stream.avail_in = static_cast<unsigned int>(count);
-  return count > 0;
+  m_Available = std::min<std::uint64_t>(m_Compressed.size(), m_Section.Size - m_CompressedPosition);
+  m_File.ReadAt(m_Section.Offset + m_CompressedPosition, m_Compressed.data(), m_Available);
+  m_CompressedPosition += m_Available;
+  m_Next = m_Compressed.data();
+  return m_Available > 0;
 }
 
 std::uint64_t
 InflateStream::ReadOn(char * bytes, std::uint64_t count)
 {
-  z_stream &    stream = m_State->Stream;
-  std::uint64_t done = 0;
-  while (done < count)
+  auto *      out = reinterpret_cast<unsigned char *>(bytes);
+  std::size_t room = count;
+  while (room > 0 && !m_IsDamaged && (m_Available > 0 || this->Fill()))
   {
-    if (stream.avail_in == 0 && !this->Fill())
-    {
-      break;
-    }
-    if (m_State->HasEnded)
+    constexpr unsigned char gzip = 0x1f; // its first byte
+    if (m_Inflater == nullptr)
     {
       // A gzip file may be several streams, one after the other.
-      if (stream.next_in[0] != 0x1f)
+      if (m_Position + (count - room) > 0 && *m_Next != gzip)
       {
         break;
       }
-      inflateReset(&stream);
-      m_State->HasEnded = false;
+      m_Inflater = std::make_unique<Inflater>(*m_Next == gzip);
     }
-    const auto part = static_cast<unsigned int>(std::min<std::uint64_t>(count - done, 1 << 30));
-    stream.next_out = reinterpret_cast<unsigned char *>(bytes) + done;
-    stream.avail_out = part;
-    const int status = inflate(&stream, Z_NO_FLUSH);
-    done += part - stream.avail_out;
-    m_State->HasEnded = status == Z_STREAM_END;
-    if (status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR)
+    const auto status = m_Inflater->Inflate(m_Next, m_Available, out, room);
+    m_IsDamaged = status == Inflater::Status::Damaged;
+    if (status == Inflater::Status::Ended)
     {
-      break;
+      m_Inflater.reset();
     }
   }
-  m_Position += done;
-  return done;
+  m_Position += count - room;
+  return count - room;
 }
 
 void
@@ -120,7 +87,7 @@ InflateStream::CheckEnd()
     throw std::runtime_error("cannot read " + m_Section.Path +
                              ": it holds more data than its header says; the size or the type there is wrong");
   }
-  if (!m_State->HasEnded)
+  if (m_IsDamaged || m_Inflater != nullptr)
   {
     throw std::runtime_error("cannot read " + m_Section.Path + ": its compressed data is truncated or damaged");
   }

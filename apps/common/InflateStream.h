@@ -2,6 +2,7 @@
 #ifndef InflateStream_h
 #define InflateStream_h
 
+#include "Inflater.h"
 #include "InputFile.h"
 #include "PlainLayout.h"
 
@@ -16,10 +17,6 @@ public:
   static constexpr std::uint64_t ScratchBytes = 1 << 20;
 
   explicit InflateStream(const FileSection & section);
-  ~InflateStream();
-  InflateStream(const InflateStream &) = delete;
-  InflateStream &
-  operator=(const InflateStream &) = delete;
 
   /** Reads decompressed bytes.
    * \throw std::runtime_error if the stream is damaged or ends before */
@@ -32,8 +29,6 @@ public:
   CheckEnd();
 
 private:
-  struct State;
-
   void
   Restart();
   std::uint64_t
@@ -41,12 +36,15 @@ private:
   bool
   Fill();
 
-  FileSection            m_Section;
-  InputFile              m_File;
-  std::unique_ptr<State> m_State;
-  std::vector<char>      m_Compressed;
-  std::uint64_t          m_CompressedPosition = 0; // of what is read next, within the section
-  std::uint64_t          m_Position = 0;           // among the decompressed bytes
+  FileSection                m_Section;
+  InputFile                  m_File;
+  std::unique_ptr<Inflater>  m_Inflater; // null between streams
+  bool                       m_IsDamaged = false;
+  std::vector<unsigned char> m_Compressed;
+  const unsigned char *      m_Next = nullptr; // of the compressed bytes in memory
+  std::size_t                m_Available = 0;
+  std::uint64_t              m_CompressedPosition = 0; // of what is read next, within the section
+  std::uint64_t              m_Position = 0;           // among the decompressed bytes
 };
 
 #endif

@@ -46,6 +46,8 @@ endfunction()
 add_python_test(include_arrows_test.py)
 add_python_test(subdivide_volume_test.py PROGRAMS SubdivideVolume)
 add_python_test(subdivide_volume_crashes_test.py PROGRAMS SubdivideVolume)
+add_python_test(subdivide_volume_pieces_test.py PROGRAMS SubdivideVolume)
+add_python_test(subdivide_volume_reports_test.py PROGRAMS SubdivideVolume)
 add_python_test(compare_volumes_test.py PROGRAMS CompareVolumes)
 foreach(script experiments_test.py experiments_surfaces_test.py)
   add_python_test(${script}

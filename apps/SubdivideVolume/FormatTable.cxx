@@ -5,34 +5,59 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cstdio>
+#include <vector>
 
 namespace
 {
+/** A row of the table. */
+struct Row
+{
+  std::string              Name;
+  std::vector<std::string> Names; // of files: what they end in, or what else they are
+  bool                     Reads;
+  bool                     Writes;
+  bool                     ReadsParts;
+  bool                     WritesParts;
+  bool                     Compresses;
+};
+
+std::vector<Row>
+GetRows()
+{
+  std::vector<Row> rows;
+  for (const VolumeFormat & format : GetVolumeFormats())
+  {
+    const bool reads = format.Reader != nullptr;
+    const bool writes = format.Writer != nullptr;
+    rows.push_back({ format.Name,
+                     { format.Endings.begin(), format.Endings.end() },
+                     reads,
+                     writes,
+                     reads && format.ReadsParts,
+                     writes && format.WritesParts,
+                     format.Compresses });
+  }
+  rows.push_back({ "slices", { "a folder of TIFF, PNG, BMP, JPEG" }, true, true, true, true, true });
+  rows.push_back({ "DICOM", { "a folder, DICOMDIR or file" }, true, false, true, false, false });
+  rows.push_back({ "raw voxels", { "any, with --raw" }, true, false, true, false, false });
+  return rows;
+}
+
 std::string
-JoinEndings(const VolumeFormat & format)
+JoinNames(const Row & row)
 {
   std::string text;
-  for (const char * const ending : format.Endings)
+  for (const std::string & name : row.Names)
   {
-    text += (text.empty() ? "" : " ") + std::string(ending);
+    text += (text.empty() ? "" : " ") + name;
   }
   return text;
 }
 
-/** What can be done piece by piece. */
-std::string
-DescribeStreaming(const VolumeFormat & format)
-{
-  const bool reads = format.Reader != nullptr && format.ReadsParts;
-  const bool writes = format.Writer != nullptr && format.WritesParts;
-  return reads && writes ? "both" : reads ? "read" : writes ? "write" : "-";
-}
-
 std::string
 MakeLine(const std::string & name,
-         const std::string & endings,
+         const std::string & names,
          const std::string & read,
          const std::string & write,
          const std::string & stream,
@@ -41,9 +66,9 @@ MakeLine(const std::string & name,
   char line[256];
   std::snprintf(line,
                 sizeof(line),
-                "%-16s %-34s %-5s %-6s %-7s %s\n",
+                "%-11s %-35s %-5s %-6s %-7s %s\n",
                 name.c_str(),
-                endings.c_str(),
+                names.c_str(),
                 read.c_str(),
                 write.c_str(),
                 stream.c_str(),
@@ -56,14 +81,13 @@ MakeTable()
 {
   const auto  tell = [](bool is) { return std::string(is ? "yes" : "-"); };
   std::string text = MakeLine("format", "names", "read", "write", "stream", "compress");
-  for (const VolumeFormat & format : GetVolumeFormats())
+  for (const Row & row : GetRows())
   {
-    text += MakeLine(format.Name,
-                     JoinEndings(format),
-                     tell(format.Reader != nullptr),
-                     tell(format.Writer != nullptr),
-                     DescribeStreaming(format),
-                     tell(format.Compresses));
+    const char * const stream = row.ReadsParts && row.WritesParts ? "both"
+                                : row.ReadsParts                  ? "read"
+                                : row.WritesParts                 ? "write"
+                                                                  : "-";
+    text += MakeLine(row.Name, JoinNames(row), tell(row.Reads), tell(row.Writes), stream, tell(row.Compresses));
   }
   return text + "stream: read or written piece by piece, so that a volume larger than memory can be.\n";
 }
@@ -71,20 +95,18 @@ MakeTable()
 std::string
 MakeJson()
 {
-  auto rows = nlohmann::ordered_json::array();
-  for (const VolumeFormat & format : GetVolumeFormats())
+  auto array = nlohmann::ordered_json::array();
+  for (const Row & row : GetRows())
   {
-    nlohmann::ordered_json row;
-    row["name"] = format.Name;
-    row["endings"] = std::vector<std::string>(format.Endings.begin(), format.Endings.end());
-    row["reads"] = format.Reader != nullptr;
-    row["writes"] = format.Writer != nullptr;
-    row["reads_parts"] = format.Reader != nullptr && format.ReadsParts;
-    row["writes_parts"] = format.Writer != nullptr && format.WritesParts;
-    row["compresses"] = format.Compresses;
-    rows.push_back(row);
+    array.push_back({ { "name", row.Name },
+                      { "endings", row.Names },
+                      { "reads", row.Reads },
+                      { "writes", row.Writes },
+                      { "reads_parts", row.ReadsParts },
+                      { "writes_parts", row.WritesParts },
+                      { "compresses", row.Compresses } });
   }
-  return rows.dump(2) + "\n";
+  return array.dump(2) + "\n";
 }
 } // namespace
 

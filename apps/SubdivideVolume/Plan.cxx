@@ -12,8 +12,7 @@
 namespace
 {
 constexpr std::uint64_t Megabyte = 1000000;
-/** What a thread's kernel and buffers take, at most. */
-constexpr std::uint64_t ScratchBytesPerThread = 32 << 20;
+constexpr std::uint64_t ScratchBytesPerThread = itk::Subdivision::Subdivider::MostScratchBytesPerThread;
 /** Parts of libraries that are loaded when they are first used, stacks, buffers of files. */
 constexpr std::uint64_t SpareBytes = 24 << 20;
 /** Pieces that are handed on while they are still in the caches of the system, and yet no shorter than this many rows

@@ -93,12 +93,14 @@ void
 Inform(const Options & options)
 {
   const LibraryMessages messages;
+  const WatchedTask     task("cannot process " + options.Input);
   Warnings              warnings(options.Quiet);
   const unsigned int    threads = GetNumberOfThreads(options);
   const auto            reader = Open(options, warnings);
   const auto            writer = options.Output.empty() ? nullptr : Create(options, threads, warnings);
   const LevelChain      chain(reader->GetDescription(), options, threads);
   const Plan            plan = MakePlan(options, chain, *reader, writer.get(), threads);
+  PassOn(messages, warnings);
   PrintResult(
     Describe(Forecast{ options, reader->GetDescription(), chain.GetOutput(), plan, warnings.GetAll(), threads }));
 }
@@ -107,6 +109,7 @@ void
 Subdivide(const Options & options)
 {
   const LibraryMessages messages;
+  const WatchedTask     task("cannot process " + options.Input);
   Warnings              warnings(options.Quiet);
   const unsigned int    threads = GetNumberOfThreads(options);
   const auto            reader = Open(options, warnings);

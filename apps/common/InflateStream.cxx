@@ -85,7 +85,7 @@ InflateStream::CheckEnd()
   if (this->ReadOn(&one, 1) != 0)
   {
     throw std::runtime_error("cannot read " + m_Section.Path +
-                             ": it holds more data than its header says; the size or the type there is wrong");
+                             ": its compressed data is damaged, or more than the size and type in its header say");
   }
   if (m_IsDamaged || m_Inflater != nullptr)
   {

@@ -108,10 +108,13 @@ FindByEnding(const std::string & path)
     auto * const imageIO = dynamic_cast<itk::ImageIOBase *>(object.GetPointer());
     if (imageIO != nullptr)
     {
-      const auto & known = imageIO->GetSupportedReadExtensions();
-      if (std::find(known.begin(), known.end(), ending) != known.end())
+      for (const auto * const known :
+           { &imageIO->GetSupportedReadExtensions(), &imageIO->GetSupportedWriteExtensions() })
       {
-        return imageIO;
+        if (std::find(known->begin(), known->end(), ending) != known->end())
+        {
+          return imageIO;
+        }
       }
     }
   }

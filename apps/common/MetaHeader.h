@@ -26,8 +26,4 @@ ComposeMetaHeader(const ImageDescription & description,
 void
 FillInCompressedSize(std::string & header, std::uint64_t size);
 
-/** Whether MetaImage's readers take a key for one of their own fields. */
-bool
-IsMetaField(const std::string & key);
-
 #endif

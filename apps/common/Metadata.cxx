@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Metadata.h"
 #include "HeaderText.h"
-#include "MetaHeader.h"
-#include "NrrdHeader.h"
+#include "MetaFields.h"
+#include "NrrdFields.h"
 
 #include <algorithm>
 #include <regex>

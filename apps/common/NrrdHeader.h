@@ -21,8 +21,4 @@ ComposeNrrdHeader(const ImageDescription & description,
                   const std::string &      dataFile,
                   bool                     isCompressed);
 
-/** Whether NRRD has a field of this name. */
-bool
-IsNrrdField(const std::string & name);
-
 #endif

@@ -39,7 +39,8 @@ TiffPageWriter::TiffPageWriter(const std::string &      path,
   : m_Tiff(path, isBig ? "w8" : "w", meant)
   , m_Description(description)
   , m_Options(options)
-  , m_RowBuffer(description.Grid.Size[0] * description.GetVoxelBytes())
+  , m_RowBytes(description.Grid.Size[0] * description.GetVoxelBytes())
+  , m_RowsPerStrip(std::clamp<std::uint64_t>(StripBytes / m_RowBytes, 1, description.Grid.Size[1]))
 {}
 
 void
@@ -58,7 +59,6 @@ TiffPageWriter::BeginPage(const std::string & text)
   const unsigned int components = m_Description.NumberOfComponents;
   const bool         isColour = m_Description.Kind == VoxelKind::Rgb || m_Description.Kind == VoxelKind::Rgba;
   const auto         bytes = itk::Subdivision::SizeOf(m_Description.Component);
-  const auto         rowsPerStrip = std::clamp<std::uint64_t>(StripBytes / m_RowBuffer.size(), 1, grid.Size[1]);
   this->SetTag(TIFFTAG_IMAGEWIDTH, static_cast<int>(grid.Size[0]));
   this->SetTag(TIFFTAG_IMAGELENGTH, static_cast<int>(grid.Size[1]));
   this->SetTag(TIFFTAG_SAMPLESPERPIXEL, static_cast<int>(components));
@@ -67,7 +67,7 @@ TiffPageWriter::BeginPage(const std::string & text)
   this->SetTag(TIFFTAG_PHOTOMETRIC, isColour ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
   this->SetTag(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   this->SetTag(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
-  this->SetTag(TIFFTAG_ROWSPERSTRIP, static_cast<int>(rowsPerStrip));
+  this->SetTag(TIFFTAG_ROWSPERSTRIP, static_cast<int>(m_RowsPerStrip));
   const unsigned int named = isColour ? 3 : 1;
   if (components > named)
   {
@@ -101,15 +101,27 @@ void
 TiffPageWriter::WriteRows(const void * rows, std::uint64_t count)
 {
   const auto * bytes = static_cast<const unsigned char *>(rows);
-  for (std::uint64_t row = 0; row < count; ++row, ++m_Row)
+  for (std::uint64_t row = 0; row < count; ++row)
   {
-    // The predictor works in place.
-    std::memcpy(m_RowBuffer.data(), bytes + row * m_RowBuffer.size(), m_RowBuffer.size());
-    if (TIFFWriteScanline(m_Tiff, m_RowBuffer.data(), m_Row, 0) != 1)
+    m_Strip.insert(m_Strip.end(), bytes + row * m_RowBytes, bytes + (row + 1) * m_RowBytes);
+    ++m_Row;
+    if (m_Row % m_RowsPerStrip == 0 || m_Row == m_Description.Grid.Size[1])
     {
-      m_Tiff.Fail("its pixels cannot be written; is the disk full?");
+      this->WriteStrip();
     }
   }
+}
+
+void
+TiffPageWriter::WriteStrip()
+{
+  const auto strip = static_cast<std::uint32_t>((m_Row - 1) / m_RowsPerStrip);
+  const auto size = static_cast<tmsize_t>(m_Strip.size());
+  if (TIFFWriteEncodedStrip(m_Tiff, strip, m_Strip.data(), size) != size)
+  {
+    m_Tiff.Fail("its pixels cannot be written; is the disk full?");
+  }
+  m_Strip.clear();
 }
 
 void

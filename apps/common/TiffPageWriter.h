@@ -36,12 +36,16 @@ public:
 private:
   void
   SetTag(std::uint32_t tag, int value);
+  void
+  WriteStrip();
 
   TiffHandle                 m_Tiff;
   ImageDescription           m_Description;
   OutputOptions              m_Options;
-  std::uint32_t              m_Row = 0;
-  std::vector<unsigned char> m_RowBuffer;
+  std::uint64_t              m_RowBytes;
+  std::uint64_t              m_RowsPerStrip;
+  std::uint64_t              m_Row = 0;
+  std::vector<unsigned char> m_Strip; // the rows that were not written yet: strips are compressed as a whole
 };
 
 /** What ImageJ reads of a file with so many slices: how far apart they are, in the unit of the resolution. Empty where

@@ -14,6 +14,9 @@ from numpy.typing import NDArray
 from . import _core
 from ._arguments import NATIVE_TYPES
 
+# Results of no more elements are computed by one thread: to begin another one takes longer.
+FEW_ELEMENTS = 2**14
+
 Progress = Callable[[float], object]
 Indices = Sequence[int]
 # Gives the part of the input with these first indices and sizes.
@@ -108,8 +111,9 @@ class Run:
             target_first, target_size = boxes[level + 1]
             target = out if level == self.levels - 1 else np.empty(target_size, between)
             end = begin + prod(target_size) / work
+            threads = 1 if target.size <= FEW_ELEMENTS else self.threads
             compute_level(
-                self.options, part, boxes[level][0], whole, target, target_first, self.threads, self.progress, begin, end
+                self.options, part, boxes[level][0], whole, target, target_first, threads, self.progress, begin, end
             )
             part, begin = target, end
         if self.progress is not None:

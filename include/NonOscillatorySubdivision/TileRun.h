@@ -24,6 +24,15 @@ public:
   /** Asked before a tile; where it says so, the tile is not computed. */
   virtual bool
   IsStopped() const = 0;
+
+  /** Whether it wants to know what elements of an integer type could not hold. It costs little; by default, no. */
+  virtual bool
+  CountsLosses() const;
+
+  /** What was computed for so many elements was not a number, so that they are 0, or beyond their type's range, so that
+   * they are its least or greatest number. */
+  virtual void
+  Lost(std::size_t notANumber, std::size_t clamped);
 };
 
 /** \brief A run from array to array, tile by tile. */

@@ -52,16 +52,6 @@ AdviseHugePages(const ArrayView & output)
 
 } // namespace
 
-bool
-TileMonitor::CountsLosses() const
-{
-  return false;
-}
-
-void
-TileMonitor::Lost(std::size_t, std::size_t)
-{}
-
 struct Workspace::Implementation
 {
   ScratchPool<float>  Float;

@@ -8,6 +8,16 @@ namespace Subdivision
 
 TileMonitor::~TileMonitor() = default;
 
+bool
+TileMonitor::CountsLosses() const
+{
+  return false;
+}
+
+void
+TileMonitor::Lost(std::size_t, std::size_t)
+{}
+
 TileRun::~TileRun() = default;
 
 } // namespace Subdivision

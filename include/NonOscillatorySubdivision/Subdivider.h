@@ -66,14 +66,18 @@ private:
  * axis is subdivided and the types are the same, elements are copied exactly.
  *
  * Axes may lie in memory in any order and direction. Rows of tiles run along the axis whose elements lie closest in the
- * input, whether it is subdivided or not, unless it is as short as the components of pixels; the output is best laid out
- * in the same order.
+ * input, whether it is subdivided or not, unless it is as short as the components of pixels; the output is best laid
+ * out in the same order.
  *
- * The bytes of an element depend on the input, its order in memory among it, and the options alone: not on the box asked
- * for, the tiles or the threads. */
+ * The bytes of an element depend on the input, its order in memory among it, and the options alone: not on the box
+ * asked for, the tiles or the threads. */
 class NonOscillatorySubdivision_EXPORT Subdivider
 {
 public:
+  /** The most memory that a Workspace takes for each thread, in bytes; for who plans memory. Tiles do not grow with the
+   * arrays. */
+  static constexpr std::size_t MostScratchBytesPerThread = std::size_t{ 32 } << 20;
+
   /** \param input what there is of the input: at least what GetInputRequest() names
    * \param whole the indices of the whole input, beyond which the boundary begins
    * \param output where the results go: its box is what is computed

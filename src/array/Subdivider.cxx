@@ -9,6 +9,7 @@
 #include "array/RowWriter.h"
 #include "array/RunPlan.h"
 #include "array/ScratchPool.h"
+#include "memory/HugePages.h"
 
 #include <string>
 
@@ -28,6 +29,22 @@ GetTileSize(const TileAxes & axes, const TGetSize & getSize)
     return axis == TileAxes::None ? std::size_t{ 1 } : static_cast<std::size_t>(getSize(axis));
   };
   return { sizeOf(axes.X), sizeOf(axes.Y), sizeOf(axes.Z) };
+}
+
+/** Asks for huge pages for what lies between the first and the last byte of an array. */
+void
+AdviseHugePagesFor(const ArrayView & view)
+{
+  auto *      first = static_cast<unsigned char *>(view.Data);
+  std::size_t bytes = SizeOf(view.Type);
+  for (const ArrayAxis & axis : view.Axes)
+  {
+    const std::ptrdiff_t reach =
+      static_cast<std::ptrdiff_t>(axis.Size - 1) * axis.Stride * static_cast<std::ptrdiff_t>(SizeOf(view.Type));
+    first += reach < 0 ? reach : 0;
+    bytes += static_cast<std::size_t>(reach < 0 ? -reach : reach);
+  }
+  AdviseHugePages(first, bytes);
 }
 
 } // namespace
@@ -168,6 +185,7 @@ Subdivider::Subdivider(const ConstArrayView & input,
                        Workspace &            workspace)
 {
   CheckArguments(input, whole, output, options);
+  AdviseHugePagesFor(output);
   const RunPlan plan(input, whole, output, options);
   m_Implementation = std::make_unique<Implementation>(plan, options, threads, *workspace.m_Implementation);
 }

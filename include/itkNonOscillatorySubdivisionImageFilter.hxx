@@ -142,7 +142,7 @@ NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::VerifyPrecondit
   }
   catch (const std::invalid_argument & error)
   {
-    itkExceptionMacro(<< error.what());
+    itkExceptionMacro("Tension is " << m_Tension << ", but " << error.what());
   }
   const auto axes = std::count(m_SubdividedAxes.Begin(), m_SubdividedAxes.End(), true);
   if (axes > static_cast<std::ptrdiff_t>(MaximumNumberOfSubdividedAxes))

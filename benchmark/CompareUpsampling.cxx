@@ -9,10 +9,10 @@
 #include "MachineContext.h"
 #include "MeasureRow.h"
 #include "MultiplyAddPeak.h"
+#include "NonOscillatorySubdivision/Target.h"
 #include "OutputFloorRows.h"
 
 #include "itkMultiThreaderBase.h"
-#include "itkSubdivisionKernel.h"
 
 #include <benchmark/benchmark.h>
 
@@ -110,7 +110,7 @@ RegisterMultiplyAddPeak(const MultiplyAddTarget & target, unsigned int threads, 
 void
 RegisterMultiplyAddPeaks(const BenchmarkOptions & options)
 {
-  const auto kernelTargets = itk::GetSubdivisionTargets();
+  const auto kernelTargets = itk::Subdivision::Target::GetNames();
   for (const MultiplyAddTarget & target : GetMultiplyAddTargets())
   {
     if (std::find(kernelTargets.cbegin(), kernelTargets.cend(), target.Name) != kernelTargets.cend())

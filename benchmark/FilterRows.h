@@ -3,6 +3,7 @@
 #define FilterRows_h
 
 #include "BenchmarkRow.h"
+#include "NonOscillatorySubdivision/Target.h"
 #include "TestVolume.h"
 
 #include "itkBSplineInterpolateImageFunction.h"
@@ -11,7 +12,6 @@
 #include "itkNearestNeighborInterpolateImageFunction.h"
 #include "itkNonOscillatorySubdivisionImageFilter.h"
 #include "itkResampleImageFilter.h"
-#include "itkSubdivisionKernel.h"
 #include "itkWindowedSincInterpolateImageFunction.h"
 
 #include <vector>
@@ -52,13 +52,8 @@ SubdivisionRow(const std::string &                                    name,
     const auto filter = itk::NonOscillatorySubdivisionImageFilter<TImage>::New();
     filter->SetInput(GetTestVolume<typename TImage::PixelType>(workload.Size));
     filter->SetScheme(scheme);
-
-    PreparedUpdate prepared = PrepareFilter(filter, workload);
-    prepared.Update = [update = prepared.Update, target]() {
-      itk::SetSubdivisionTarget(target);
-      update();
-    };
-    return prepared;
+    filter->SetTarget(target);
+    return PrepareFilter(filter, workload);
   };
   return { name, prepare, false, laneOperationsPerVoxel };
 }
@@ -169,9 +164,9 @@ MakeFilterRows(bool withWindowedSinc)
   {
     rows.push_back(ResampleWindowedSincRow<ImageType>());
   }
-  for (const std::string & target : itk::GetSubdivisionTargets())
+  for (const std::string & target : itk::Subdivision::Target::GetNames())
   {
-    if (target != itk::GetSubdivisionTarget())
+    if (target != itk::Subdivision::Target::Fastest().GetName())
     {
       rows.push_back(
         SubdivisionRow<ImageType>("NonOscillatory@" + target, Scheme::NonOscillatory, nonOscillatory, target));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MachineContext.h"
 
-#include "itkSubdivisionKernel.h"
+#include "NonOscillatorySubdivision/Target.h"
 #include "itkVersion.h"
 
 #include <benchmark/benchmark.h>
@@ -53,7 +53,7 @@ AddMachineContext()
   benchmark::AddCustomContext("transparent_huge_pages", ReadLine("/sys/kernel/mm/transparent_hugepage/enabled", ""));
   benchmark::AddCustomContext("itk", itk::Version::GetITKVersion());
   benchmark::AddCustomContext("compiler", GetCompiler());
-  benchmark::AddCustomContext("kernel_target", itk::GetSubdivisionTarget());
+  benchmark::AddCustomContext("kernel_target", itk::Subdivision::Target::Fastest().GetName());
 }
 
 } // namespace subdivision_benchmark

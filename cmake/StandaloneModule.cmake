@@ -16,8 +16,6 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
 
-set(CMAKE_CXX_STANDARD 17)
-set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
@@ -39,7 +37,10 @@ generate_export_header(NonOscillatorySubdivision
   NO_EXPORT_MACRO_NAME NonOscillatorySubdivision_HIDDEN
   STATIC_DEFINE NonOscillatorySubdivision_STATIC
 )
-target_compile_features(NonOscillatorySubdivision PUBLIC cxx_std_17)
+set_target_properties(NonOscillatorySubdivision PROPERTIES
+  VERSION "${PROJECT_VERSION}"
+  SOVERSION "${PROJECT_VERSION_MAJOR}"
+)
 target_include_directories(NonOscillatorySubdivision
   PUBLIC
     "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"

@@ -25,17 +25,20 @@ import matplotlib.pyplot as plt  # noqa: E402 (the backend has to be chosen firs
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[1]
 
-# Scheme names of SubdivideVolume and what the tables call them.
+# The schemes of SubdivideVolume, one of them with two tensions, and what the tables call them.
 SCHEMES = {
     "linear": "linear subdivision",
     "nonoscillatory": "non-oscillatory",
     "bounded": "bounded linear",
     "bspline": "B-spline subdivision",
+    "restored": "restored",
+    "restored, tension 0": "restored, tension 0",
 }
+DEFAULT_TENSION = 2.0
 # Interpolation orders of what users use today and what the tables call them.
 PEERS = {0: "nearest voxel", 1: "linear interpolation", 3: "B-spline 3 interpolation", 5: "B-spline 5 interpolation"}
 
-LINEAR_COLOUR, NONOSCILLATORY_COLOUR = "tab:blue", "tab:red"
+LINEAR_COLOUR, NONOSCILLATORY_COLOUR, RESTORED_COLOUR = "tab:blue", "tab:red", "tab:green"
 BELOW_COLOUR, ABOVE_COLOUR = "#2a7fff", "#ff3b30"
 
 
@@ -81,18 +84,36 @@ def _run(arguments):
 
 
 def subdivide(
-    array, spacing=(1.0, 1.0, 1.0), scheme="nonoscillatory", tension=2.0, boundary="nearest", output_type="float"
+    array,
+    spacing=(1.0, 1.0, 1.0),
+    scheme="nonoscillatory",
+    tension=DEFAULT_TENSION,
+    boundary="nearest",
+    output_type="float",
 ):
     """Twice the resolution on all axes, by SubdivideVolume.
 
+    scheme: a key of SCHEMES; one that names a tension has that one, whatever `tension` says.
     boundary: "nearest", "mirror", "periodic" or a value. Children 2j and 2j + 1 cover voxel j's two halves.
     """
     tool = program("SubdivideVolume", "SUBDIVIDE_VOLUME")
+    scheme, _, own_tension = scheme.partition(", tension ")
+    tension = own_tension or tension
     with tempfile.TemporaryDirectory() as folder:
         source, target = pathlib.Path(folder) / "in.mha", pathlib.Path(folder) / "out.mha"
         write_volume(source, np.asarray(array), spacing)
         options = ["--scheme", scheme, "--tension", tension, "--boundary", boundary, "--output-type", output_type]
         _run([tool, source, target, *options, "--quiet"])
+        return read_volume(target).data
+
+
+def subdivide_labels(labels, scheme="restored", tension=0.0):
+    """Twice the resolution of a label map (an array of integers) on all axes, by SubdivideVolume --labels."""
+    tool = program("SubdivideVolume", "SUBDIVIDE_VOLUME")
+    with tempfile.TemporaryDirectory() as folder:
+        source, target = pathlib.Path(folder) / "in.mha", pathlib.Path(folder) / "out.mha"
+        write_volume(source, np.asarray(labels))
+        _run([tool, source, target, "--labels", "--scheme", scheme, "--tension", tension, "--quiet"])
         return read_volume(target).data
 
 

@@ -128,7 +128,7 @@ def run(setting, output_folder):
     for tension in TENSIONS:
         result = common.subdivide(original, tension=tension, output_type="double")
         entries.append((original, label, tension, result, "", _range_text((0.0, 1.0))))
-    for scheme in ("bounded", "bspline"):
+    for scheme in ("bounded", "bspline", "restored", "restored, tension 0"):
         result = common.subdivide(original, scheme=scheme, output_type="double")
         entries.append((original, common.SCHEMES[scheme], None, result))
     pictures = [draw(volumes, output_folder, "phantom_96.png")]

@@ -11,8 +11,8 @@ from common import REPOSITORY, ProgramError
 from report import Finding
 from volumes import VolumeError
 
-EXPERIMENTS = ("phantom", "subsampling", "compression", "metrology", "surfaces", "smoothness")
-USING_VOLUMES = ("subsampling", "compression", "surfaces")  # their run() also takes the volumes named on the command line
+EXPERIMENTS = ("phantom", "subsampling", "compression", "metrology", "surfaces", "smoothness", "noise", "label_maps")
+USING_VOLUMES = ("subsampling", "compression", "surfaces", "noise")  # their run() also takes the volumes named on the command line
 ASSETS = "results"
 
 INTRODUCTION = """# The paper's experiments, measured with this module

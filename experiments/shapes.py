@@ -93,6 +93,57 @@ class Plane:
         return np.broadcast_to(np.asarray(self.normal), np.shape(points))
 
 
+@dataclass(frozen=True)
+class Capsule:
+    """All that is no farther than `radius` from the line between two points."""
+
+    start: tuple
+    end: tuple
+    radius: float
+    endless = False
+
+    def _from_core(self, points):
+        start, end = np.asarray(self.start), np.asarray(self.end)
+        core = end - start
+        along = np.clip((points - start) @ core / (core @ core), 0.0, 1.0)
+        return points - start - along[..., None] * core
+
+    def distance(self, points):
+        return np.linalg.norm(self._from_core(points), axis=-1) - self.radius
+
+    def normals(self, points):
+        return unit(self._from_core(points))
+
+
+@dataclass(frozen=True)
+class RoundedBox:
+    """A box of half sizes `half`, turned and then rounded: all that is no farther than `rounding` from it.
+
+    turned: an orthogonal matrix; (p - centre) @ turned are coordinates along the box's edges.
+    """
+
+    centre: tuple
+    turned: tuple
+    half: tuple
+    rounding: float
+    endless = False
+
+    def _outwards(self, points):
+        local = (points - np.asarray(self.centre)) @ np.asarray(self.turned)
+        return np.abs(local) - np.asarray(self.half), np.sign(local)
+
+    def distance(self, points):
+        beyond, _ = self._outwards(points)
+        return np.linalg.norm(np.maximum(beyond, 0.0), axis=-1) + np.minimum(beyond.max(axis=-1), 0.0) - self.rounding
+
+    def normals(self, points):
+        beyond, signs = self._outwards(points)
+        inside = np.all(beyond < 0.0, axis=-1)
+        nearest_face = beyond == beyond.max(axis=-1, keepdims=True)
+        local = np.where(inside[..., None], nearest_face, np.maximum(beyond, 0.0)) * signs
+        return unit(local @ np.asarray(self.turned).T)
+
+
 def voxel_centres(size):
     """Index coordinates (size, size, size, 3) of the voxels of a cube."""
     return np.stack(np.meshgrid(*[np.arange(size, dtype=float)] * 3, indexing="ij"), axis=-1)
@@ -119,4 +170,17 @@ def partial_volume(shape, size, parts=5):
         box_distances = shape.distance(centres[at_surface] + np.asarray(offset))
         filled += np.clip(0.5 - box_distances * parts, 0.0, 1.0)
     fractions[at_surface] = filled / parts**3
+    return fractions
+
+
+def sampled_volume(shape, size, parts=8):
+    """The fraction of each voxel that is inside, counted at the centres of parts^3 boxes."""
+    centres = voxel_centres(size)
+    distances = shape.distance(centres)
+    fractions = (distances < 0).astype(float)
+    at_surface = np.abs(distances) < HALF_DIAGONAL
+    steps = (np.arange(parts) + 0.5) / parts - 0.5
+    offsets = [np.asarray(offset) for offset in itertools.product(steps, repeat=3)]
+    inside = sum((shape.distance(centres[at_surface] + offset) < 0).astype(int) for offset in offsets)
+    fractions[at_surface] = inside / parts**3
     return fractions

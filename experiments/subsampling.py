@@ -7,8 +7,9 @@ from report import Finding, Picture, Result, Table, Text
 from volumes import central_region, sample_volumes
 
 TENSIONS = {"small": (1.01, 2.0, 8.0), "full": (1.01, 1.5, 2.0, 3.0, 4.0, 8.0, 16.0)}
+RESTORED_TENSIONS = {"small": (0.0, 2.0), "full": (0.0, 0.5, 1.0, 2.0, 4.0)}
 SMALL_REGION = 96
-DEFAULT_TENSION = 2.0
+DEFAULT_TENSION = common.DEFAULT_TENSION
 
 PAPER_VOLUME = "the paper: piston, 464×464×414"
 PAPER = {
@@ -41,7 +42,9 @@ def methods(setting):
     listed = [(label, None, peer(order)) for order, label in common.PEERS.items()]
     listed += [(common.SCHEMES[name], None, scheme(name)) for name in ("linear", "bounded", "bspline")]
     label = common.SCHEMES["nonoscillatory"]
-    return listed + [(label, tension, scheme("nonoscillatory", tension)) for tension in TENSIONS[setting]]
+    listed += [(label, tension, scheme("nonoscillatory", tension)) for tension in TENSIONS[setting]]
+    label = common.SCHEMES["restored"]
+    return listed + [(label, tension, scheme("restored", tension)) for tension in RESTORED_TENSIONS[setting]]
 
 
 def bring_back(volume, setting):
@@ -72,31 +75,36 @@ def _draw_differences(volume, measured, output_folder):
     chosen = {
         "linear": (common.SCHEMES["linear"], None),
         "nonoscillatory": (common.SCHEMES["nonoscillatory"], DEFAULT_TENSION),
+        "restored": (common.SCHEMES["restored"], DEFAULT_TENSION),
     }
     differences = {common.SCHEMES[name]: measured[key][1] - middle for name, key in chosen.items()}
     limit = max(np.quantile(np.abs(d), 0.995) for d in differences.values())
-    figure, axes = common.new_figure(columns=3)
+    figure, axes = common.new_figure(columns=1 + len(differences))
     darkest, brightest = np.quantile(middle, (0.01, 0.995))
     common.show_slice(axes[0][0], middle, f"{volume.name}, original", vmin=darkest, vmax=brightest)
     for panel, (label, difference) in zip(axes[0][1:], differences.items()):
         common.show_slice(panel, difference, f"{label} - original", cmap="seismic", vmin=-limit, vmax=limit)
-    figure.colorbar(axes[0][2].images[0], ax=list(axes[0]), shrink=0.7, label="grey values")
+    figure.colorbar(axes[0][-1].images[0], ax=list(axes[0]), shrink=0.7, label="grey values")
     return common.save_figure(figure, output_folder, f"subsampling_difference_{volume.name}.png")
 
 
 def _draw_tensions(volume, measured, output_folder):
     """PSNR and relative total variation against the tension, between the two schemes that bound them."""
-    label = common.SCHEMES["nonoscillatory"]
-    tensions = sorted(tension for name, tension in measured if name == label)
     figure, axes = common.new_figure(columns=2, width=4.2, height=3.0)
     shown = (("psnr_db", "PSNR / dB", 1.0), ("relative_total_variation", "relative total variation / %", 100.0))
     for panel, (key, heading, factor) in zip(axes[0], shown):
-        values = [factor * measured[label, tension][0][key] for tension in tensions]
-        panel.plot(tensions, values, "o-", color=common.NONOSCILLATORY_COLOUR, label=label)
+        for scheme, colour in (
+            ("nonoscillatory", common.NONOSCILLATORY_COLOUR),
+            ("restored", common.RESTORED_COLOUR),
+        ):
+            label = common.SCHEMES[scheme]
+            drawn = sorted(tension for name, tension in measured if name == label and tension)
+            panel.plot(drawn, [factor * measured[label, t][0][key] for t in drawn], "o-", color=colour, label=label)
         for scheme, colour, style in (("linear", common.LINEAR_COLOUR, "--"), ("bspline", "tab:gray", ":")):
             bound = factor * measured[common.SCHEMES[scheme], None][0][key]
             panel.axhline(bound, color=colour, linestyle=style, label=common.SCHEMES[scheme])
         panel.set(xscale="log", xlabel="tension", ylabel=heading)
+        tensions = sorted({tension for _, tension in measured if tension})
         panel.set_xticks(tensions, [f"{tension:g}" for tension in tensions], minor=False)
         panel.minorticks_off()
     figure.legend(*axes[0][0].get_legend_handles_labels(), loc="upper center", bbox_to_anchor=(0.5, -0.02), ncol=3)
@@ -129,9 +137,8 @@ def _order_findings(volume, linear, nonoscillatory):
 
 
 def _ranking(volume, measured):
-    """The methods from the highest PSNR down, in a sentence (the non-oscillatory scheme at the default tension)."""
-    default = (common.SCHEMES["nonoscillatory"], DEFAULT_TENSION)
-    psnr = {key[0]: entry[0]["psnr_db"] for key, entry in measured.items() if key[1] is None or key == default}
+    """The methods from the highest PSNR down, in a sentence (those with a tension at the default one)."""
+    psnr = {key[0]: entry[0]["psnr_db"] for key, entry in measured.items() if key[1] in (None, DEFAULT_TENSION)}
     ordered = sorted(psnr, key=psnr.get, reverse=True)
     listed = ", ".join(f"{method} ({psnr[method]:.1f})" for method in ordered)
     return Text(f"{volume.name}, from the highest PSNR down: {listed}.")

@@ -27,7 +27,7 @@ REGION = {"small": 72, "full": 256}
 PIT_RADIUS, PIT_RADII = 2.0, (1.0, 2.0, 3.0)
 # Half the edge of the box around the pit that is looked at closely.
 NEIGHBOURHOOD = 16
-PICTURED = ("linear interpolation", "B-spline 5 interpolation", "linear subdivision", "non-oscillatory")
+PICTURED = ("linear interpolation", "linear subdivision", "non-oscillatory", "restored")
 WHOLE_VIEW = (0.25, -0.6, 1.0)
 SCALE = rendering.Scale("distance from the original's surface, voxels", 0.0, 1.0)
 

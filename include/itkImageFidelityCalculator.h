@@ -2,6 +2,7 @@
 #ifndef itkImageFidelityCalculator_h
 #define itkImageFidelityCalculator_h
 
+#include "itkImageFidelitySums.h"
 #include "itkImageSink.h"
 #include "itkRadixQuantiles.h"
 
@@ -226,32 +227,8 @@ protected:
 private:
   static constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-  /** What is known of one image, or of some rows of it. */
-  struct ImageSummary
-  {
-    double totalVariation{ 0.0 };
-    double minimum{ std::numeric_limits<double>::infinity() };
-    double maximum{ -std::numeric_limits<double>::infinity() };
-
-    void
-    AddToRange(double value);
-
-    void
-    Append(const ImageSummary & other);
-  };
-
-  /** What the first pass finds out about one row, or about several. */
-  struct RowSummary
-  {
-    ImageSummary  reference{};
-    ImageSummary  test{};
-    double        squaredError{ 0.0 };
-    double        squaredReference{ 0.0 };
-    SizeValueType numberOfComparedVoxels{ 0 };
-
-    void
-    Append(const RowSummary & other);
-  };
+  using ImageSummary = Detail::ImageFidelityImageSummary;
+  using RowSummary = Detail::ImageFidelityRowSummary;
 
   /** The result. */
   struct Figures
@@ -316,16 +293,6 @@ private:
   /** Fills workspace.squaredGradient for the row that is loaded. */
   void
   ComputeSquaredGradients(const IndexType & start, Workspace & workspace) const;
-
-  static void
-  AddSquaredDifferences(const std::vector<double> & row,
-                        const double *              next,
-                        SizeValueType               length,
-                        double                      weight,
-                        std::vector<double> &       sums);
-
-  static double
-  SumOfRoots(const std::vector<double> & squares);
 
   /** Shows the errors of the row that is loaded to the quantiles. */
   void

@@ -239,21 +239,14 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::SummarizeRow(const IndexTy
   RowSummary summary;
   for (SizeValueType i = 0; i < workspace.row.test.size(); ++i)
   {
-    const double reference = workspace.row.reference[i];
-    const double test = workspace.row.test[i];
-    if (std::isnan(reference))
+    if (!std::isnan(workspace.row.reference[i]))
     {
-      continue;
+      summary.AddVoxel(workspace.row.reference[i], workspace.row.test[i]);
     }
-    ++summary.numberOfComparedVoxels;
-    summary.squaredError += (test - reference) * (test - reference);
-    summary.squaredReference += reference * reference;
-    summary.reference.AddToRange(reference);
-    summary.test.AddToRange(test);
   }
   this->ComputeSquaredGradients(start, workspace);
-  summary.reference.totalVariation = SumOfRoots(workspace.squaredGradient.reference);
-  summary.test.totalVariation = SumOfRoots(workspace.squaredGradient.test);
+  summary.reference.totalVariation = Detail::SumOfRoots(workspace.squaredGradient.reference);
+  summary.test.totalVariation = Detail::SumOfRoots(workspace.squaredGradient.test);
   return summary;
 }
 
@@ -267,9 +260,9 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::ComputeSquaredGradients(co
   const SizeValueType length = row.test.size();
   std::fill(gradient.reference.begin(), gradient.reference.end(), 0.0);
   std::fill(gradient.test.begin(), gradient.test.end(), 0.0);
-  AddSquaredDifferences(
+  Detail::AddSquaredDifferences(
     row.reference, row.reference.data() + 1, length - 1, m_DifferenceWeights[0], gradient.reference);
-  AddSquaredDifferences(row.test, row.test.data() + 1, length - 1, m_DifferenceWeights[0], gradient.test);
+  Detail::AddSquaredDifferences(row.test, row.test.data() + 1, length - 1, m_DifferenceWeights[0], gradient.test);
 
   const RegionType & image = this->GetReferenceImage()->GetLargestPossibleRegion();
   for (unsigned int axis = 1; axis < ImageDimension; ++axis)
@@ -280,38 +273,11 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::ComputeSquaredGradients(co
     {
       const RowPair & nextRow = workspace.nextRow;
       this->LoadRowPair(next, workspace.nextRow);
-      AddSquaredDifferences(
+      Detail::AddSquaredDifferences(
         row.reference, nextRow.reference.data(), length, m_DifferenceWeights[axis], gradient.reference);
-      AddSquaredDifferences(row.test, nextRow.test.data(), length, m_DifferenceWeights[axis], gradient.test);
+      Detail::AddSquaredDifferences(row.test, nextRow.test.data(), length, m_DifferenceWeights[axis], gradient.test);
     }
   }
-}
-
-template <typename TReferenceImage, typename TTestImage>
-void
-ImageFidelityCalculator<TReferenceImage, TTestImage>::AddSquaredDifferences(const std::vector<double> & row,
-                                                                            const double *              next,
-                                                                            SizeValueType               length,
-                                                                            double                      weight,
-                                                                            std::vector<double> &       sums)
-{
-  for (SizeValueType i = 0; i < length; ++i)
-  {
-    const double difference = (next[i] - row[i]) * weight;
-    sums[i] += std::isnan(difference) ? 0.0 : difference * difference;
-  }
-}
-
-template <typename TReferenceImage, typename TTestImage>
-double
-ImageFidelityCalculator<TReferenceImage, TTestImage>::SumOfRoots(const std::vector<double> & squares)
-{
-  double sum = 0.0;
-  for (const double square : squares)
-  {
-    sum += std::sqrt(square);
-  }
-  return sum;
 }
 
 template <typename TReferenceImage, typename TTestImage>
@@ -406,34 +372,6 @@ ImageFidelityCalculator<TReferenceImage, TTestImage>::ComputeVoxelVolume() const
     volume *= this->GetReferenceImage()->GetSpacing()[axis];
   }
   return volume;
-}
-
-template <typename TReferenceImage, typename TTestImage>
-void
-ImageFidelityCalculator<TReferenceImage, TTestImage>::ImageSummary::AddToRange(double value)
-{
-  minimum = std::min(minimum, value);
-  maximum = std::max(maximum, value);
-}
-
-template <typename TReferenceImage, typename TTestImage>
-void
-ImageFidelityCalculator<TReferenceImage, TTestImage>::ImageSummary::Append(const ImageSummary & other)
-{
-  totalVariation += other.totalVariation;
-  minimum = std::min(minimum, other.minimum);
-  maximum = std::max(maximum, other.maximum);
-}
-
-template <typename TReferenceImage, typename TTestImage>
-void
-ImageFidelityCalculator<TReferenceImage, TTestImage>::RowSummary::Append(const RowSummary & other)
-{
-  reference.Append(other.reference);
-  test.Append(other.test);
-  squaredError += other.squaredError;
-  squaredReference += other.squaredReference;
-  numberOfComparedVoxels += other.numberOfComparedVoxels;
 }
 
 template <typename TReferenceImage, typename TTestImage>

@@ -19,6 +19,8 @@ operator<<(std::ostream & out, const NonOscillatorySubdivisionImageFilterEnums::
       return out << prefix << "BoundedLinear";
     case Scheme::BSpline:
       return out << prefix << "BSpline";
+    case Scheme::Restored:
+      return out << prefix << "Restored";
   }
   return out << "INVALID VALUE FOR " << prefix;
 }

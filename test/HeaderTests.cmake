@@ -1,11 +1,14 @@
-# Wrapping ITK for Python parses the public headers with castxml: they must stay plain enough for it.
+# The public headers: plain enough for castxml, which parses them where ITK is wrapped for Python; and those of the kernel
+# and array layers each by itself, without ITK.
 
 find_program(CASTXML_EXECUTABLE castxml)
 mark_as_advanced(CASTXML_EXECUTABLE)
 
+# What a user of the module compiles with.
+set(include_directories $<TARGET_PROPERTY:NonOscillatorySubdivisionGTestDriver,INCLUDE_DIRECTORIES>)
+
 if(CASTXML_EXECUTABLE)
   # The standard library of GCC relies on sized deallocation, which the Clang within castxml has on demand only.
-  set(include_directories $<TARGET_PROPERTY:NonOscillatorySubdivision,INTERFACE_INCLUDE_DIRECTORIES>)
   add_test(
     NAME NonOscillatorySubdivisionHeaders.ParseWithCastXML
     COMMAND "${CASTXML_EXECUTABLE}" --castxml-output=1 --castxml-start _wrapping_
@@ -16,9 +19,42 @@ if(CASTXML_EXECUTABLE)
     COMMAND_EXPAND_LISTS
   )
 else()
-  add_test(
-    NAME NonOscillatorySubdivisionHeaders.ParseWithCastXML
-    COMMAND "${CMAKE_COMMAND}" -E echo "skipped: castxml is not installed"
-  )
-  set_tests_properties(NonOscillatorySubdivisionHeaders.ParseWithCastXML PROPERTIES SKIP_REGULAR_EXPRESSION "skipped")
+  add_skipped_test(NonOscillatorySubdivisionHeaders.ParseWithCastXML "castxml is not installed")
 endif()
+
+file(GLOB plain_headers CONFIGURE_DEPENDS "${NonOscillatorySubdivision_SOURCE_DIR}/include/NonOscillatorySubdivision/*.h")
+foreach(header IN LISTS plain_headers)
+  get_filename_component(name "${header}" NAME_WE)
+  set(test "NonOscillatorySubdivisionHeaders.${name}AloneWithoutITK")
+  if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+    add_test(
+      NAME ${test}
+      COMMAND "${CMAKE_CXX_COMPILER}" -std=c++17 -fsyntax-only -Wall -Wextra -Werror
+        "-I${NonOscillatorySubdivision_SOURCE_DIR}/include" "-I${NonOscillatorySubdivision_BINARY_DIR}/include"
+        -include "NonOscillatorySubdivision/${name}.h" -x c++ /dev/null
+    )
+  else()
+    add_skipped_test(${test} "it needs a compiler with the options of GCC")
+  endif()
+endforeach()
+
+# Images that the filter does not take are refused by the compiler, in the filter's words.
+foreach(kind Adaptor LabelMap SpecialCoordinates Matrices VariableLength LongDoubles)
+  set(test "NonOscillatorySubdivisionHeaders.Refuse${kind}")
+  if(kind MATCHES "Matrices|VariableLength|LongDoubles")
+    set(message "Pixels to be subdivided are, or consist of, integers")
+  else()
+    set(message "Images to be subdivided are itk::Image or itk::VectorImage")
+  endif()
+  if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+    add_test(
+      NAME ${test}
+      COMMAND "${CMAKE_CXX_COMPILER}" -std=c++17 -fsyntax-only -DREFUSED_IMAGE=${kind}
+        "-I$<JOIN:${include_directories},;-I>" "${CMAKE_CURRENT_SOURCE_DIR}/RefusedImages.cxx"
+      COMMAND_EXPAND_LISTS
+    )
+    set_tests_properties(${test} PROPERTIES PASS_REGULAR_EXPRESSION "${message}")
+  else()
+    add_skipped_test(${test} "it needs a compiler with the options of GCC")
+  endif()
+endforeach()

@@ -1,5 +1,10 @@
 # Installs the package into a folder of the build tree, and there a separate project finds it, builds and runs.
 
+if(built_as_itk_module)
+  add_skipped_test(NonOscillatorySubdivisionPackage.FindPackage "ITK installs the module as one of its own")
+  return()
+endif()
+
 set(installed_prefix "${CMAKE_CURRENT_BINARY_DIR}/installed")
 add_test(
   NAME NonOscillatorySubdivisionPackage.Install
@@ -25,3 +30,24 @@ set_tests_properties(NonOscillatorySubdivisionPackage.FindPackage PROPERTIES
   FIXTURES_REQUIRED installed_package
   PASS_REGULAR_EXPRESSION "0\\.171875[\r\n]+0\\.376953"
 )
+
+# What was installed names no folder of this machine but those that the user chose, ITK's among them.
+add_test(
+  NAME NonOscillatorySubdivisionPackage.NamesNoFolderOfTheBuild
+  COMMAND "${CMAKE_COMMAND}" "-DPREFIX=${installed_prefix}" "-DFORBIDDEN=${PROJECT_SOURCE_DIR};${hwy_DIR}"
+    -P "${CMAKE_CURRENT_SOURCE_DIR}/FindForbiddenText.cmake"
+)
+set_tests_properties(NonOscillatorySubdivisionPackage.NamesNoFolderOfTheBuild PROPERTIES
+  FIXTURES_REQUIRED installed_package
+)
+
+# The headers of the layers below ITK are found by the names that they include each other by.
+if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+  add_test(
+    NAME NonOscillatorySubdivisionPackage.HeadersWithoutITK
+    COMMAND "${CMAKE_CXX_COMPILER}" -std=c++17 -fsyntax-only
+      "-I${installed_prefix}/${CMAKE_INSTALL_INCLUDEDIR}/NonOscillatorySubdivision"
+      -include NonOscillatorySubdivision/Kernel.h -include NonOscillatorySubdivision/Subdivider.h -x c++ /dev/null
+  )
+  set_tests_properties(NonOscillatorySubdivisionPackage.HeadersWithoutITK PROPERTIES FIXTURES_REQUIRED installed_package)
+endif()

@@ -1,5 +1,5 @@
-# Tests in Python: the programs as a user runs them, and the experiments. The system's Python comes first, as it is the
-# one that Debian's numpy and other packages install for.
+# Tests in Python: the rules that the sources keep, the programs as a user runs them, and the experiments. The system's
+# Python comes first, as it is the one that Debian's numpy and other packages install for.
 
 find_program(NonOscillatorySubdivision_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
 find_program(NonOscillatorySubdivision_PYTHON python3)
@@ -36,15 +36,18 @@ function(add_python_test script)
   endif()
 
   if(missing)
-    add_test(NAME ${name} COMMAND "${CMAKE_COMMAND}" -E echo "skipped, for want of:${missing}")
-    set_tests_properties(${name} PROPERTIES SKIP_REGULAR_EXPRESSION "skipped, for want of")
+    add_skipped_test(${name} "for want of${missing}")
   else()
     add_test(NAME ${name} COMMAND "${NonOscillatorySubdivision_PYTHON}" "${CMAKE_CURRENT_SOURCE_DIR}/${script}")
     set_tests_properties(${name} PROPERTIES ENVIRONMENT "${environment}")
   endif()
 endfunction()
 
+add_python_test(include_arrows_test.py)
 add_python_test(subdivide_volume_test.py PROGRAMS SubdivideVolume)
+add_python_test(subdivide_volume_crashes_test.py PROGRAMS SubdivideVolume)
+add_python_test(subdivide_volume_pieces_test.py PROGRAMS SubdivideVolume)
+add_python_test(subdivide_volume_reports_test.py PROGRAMS SubdivideVolume)
 add_python_test(compare_volumes_test.py PROGRAMS CompareVolumes)
 foreach(script experiments_test.py experiments_surfaces_test.py)
   add_python_test(${script}

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 
 namespace
@@ -144,7 +145,7 @@ private:
     {
       flags.push_back(this->Below(3) != 0 && std::count(flags.begin(), flags.end(), true) < 3);
     }
-    const unsigned int scheme = this->Below(4);
+    const unsigned int scheme = this->Below(std::size(Schemes));
     m_Options.Scheme = &Schemes[scheme];
     m_Reference = static_cast<SubdivisionReference::Scheme>(scheme);
     m_Options.Tension = 1.25 + this->Below(4);

@@ -19,7 +19,8 @@ enum class Scheme
   NonOscillatory,
   Linear,
   BoundedLinear,
-  BSpline
+  BSpline,
+  Restored
 };
 
 template <unsigned int D>
@@ -421,6 +422,10 @@ public:
         m_Fields.push_back({ subset, ClampedDifference<D>(m_Padded, subset, settings.tension) });
       }
     }
+    if (settings.scheme == Scheme::Restored)
+    {
+      Sharpen();
+    }
   }
 
   /** The output value at an index counted from the doubled start. */
@@ -435,6 +440,8 @@ public:
         return TensorSum<D>(m_Padded, ChildTaps(output, MaskA), Base(output));
       case Scheme::BoundedLinear:
         return Bounded(output);
+      case Scheme::Restored:
+        return Restored(output);
       default:
         return TensorSum<D>(m_Padded, ChildTaps(output, MaskB), Base(output));
     }
@@ -500,30 +507,103 @@ private:
     return sum;
   }
 
-  double
-  Bounded(const Index<D> & output) const
+  /** The voxel that a child lies in. */
+  Index<D>
+  Parent(const Index<D> & output) const
   {
     Index<D> parent = m_Image.lower;
     for (unsigned int w = 0; w < D; ++w)
     {
       parent[w] += m_Settings.axes[w] ? Child(output[w]).parent : output[w];
     }
+    return parent;
+  }
+
+  /** A value clamped to the range of the voxels around a child's parent. */
+  double
+  ClampToNeighbours(double value, const Index<D> & output) const
+  {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     for (const Index<D> & offset : OffsetsAlong<D>(m_Settings.axes, -1, 1))
     {
-      const double value = m_Padded(Sum<D>(parent, offset));
-      low = std::min(low, value);
-      high = std::max(high, value);
+      const double neighbour = m_Padded(Sum<D>(Parent(output), offset));
+      low = std::min(low, neighbour);
+      high = std::max(high, neighbour);
     }
-    const double linear = TensorSum<D>(m_Padded, ChildTaps(output, MaskA), Base(output));
-    return std::min(std::max(linear, low), high);
+    return std::min(std::max(value, low), high);
+  }
+
+  double
+  Bounded(const Index<D> & output) const
+  {
+    return ClampToNeighbours(TensorSum<D>(m_Padded, ChildTaps(output, MaskA), Base(output)), output);
+  }
+
+  /** E + clamp(a - E, -T, T). */
+  double
+  Restored(const Index<D> & output) const
+  {
+    const double e = ClampToNeighbours(TensorSum<D>(m_Sharpened, ChildTaps(output, MaskB), Base(output)), output);
+    const double a = TensorSum<D>(m_Padded, ChildTaps(output, MaskA), Base(output));
+    double       least = std::numeric_limits<double>::infinity();
+    double       greatest = 0.0;
+    for (const Index<D> & offset : OffsetsAlong<D>(m_Settings.axes, -2, 2))
+    {
+      const double h = m_Variation(Sum<D>(Parent(output), offset));
+      least = std::min(least, h);
+      greatest = std::max(greatest, h);
+    }
+    const double t = greatest > 0 ? 4 * m_Settings.tension * least * least / greatest : 0.0;
+    return e + std::min(std::max(a - e, -t), t);
+  }
+
+  /** L: the sum of the second differences along the subdivided axes. */
+  double
+  Laplacian(const Grid<D> & g, const Index<D> & j) const
+  {
+    double sum = 0.0;
+    for (unsigned int w = 0; w < D; ++w)
+    {
+      Axes<D> axis{};
+      axis[w] = m_Settings.axes[w];
+      sum += axis[w] ? SecondDifference<D>(g, axis, j) : 0.0;
+    }
+    return sum;
+  }
+
+  /** H of the restored scheme: the differences to both neighbours along each subdivided axis. */
+  double
+  Variation(const Index<D> & j) const
+  {
+    double sum = 0.0;
+    for (unsigned int w = 0; w < D; ++w)
+    {
+      Axes<D> axis{};
+      axis[w] = m_Settings.axes[w];
+      sum += axis[w] ? RoughnessAround<D>(m_Padded, axis, j) : 0.0;
+    }
+    return sum;
+  }
+
+  /** P f and H. */
+  void
+  Sharpen()
+  {
+    const Axes<D> & axes = m_Settings.axes;
+    const Grid<D>   l = FieldOn<D>(m_Padded, axes, -1, [&](const Index<D> & j) { return Laplacian(m_Padded, j); });
+    m_Sharpened = FieldOn<D>(m_Padded, axes, -2, [&](const Index<D> & j) {
+      return m_Padded(j) - 15.0 / 16 * l(j) - 9.0 / 64 * Laplacian(l, j);
+    });
+    m_Variation = FieldOn<D>(m_Padded, axes, -1, [&](const Index<D> & j) { return Variation(j); });
   }
 
   Settings<D>        m_Settings;
   Grid<D>            m_Image;
   Grid<D>            m_Padded;
   std::vector<Field> m_Fields;
+  Grid<D>            m_Sharpened;
+  Grid<D>            m_Variation;
 };
 
 template <unsigned int D>

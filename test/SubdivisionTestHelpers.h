@@ -29,7 +29,9 @@ using SchemeEnum = itk::NonOscillatorySubdivisionImageFilterEnums::Scheme;
 inline std::vector<SchemeEnum>
 AllSchemes()
 {
-  return { SchemeEnum::NonOscillatory, SchemeEnum::Linear, SchemeEnum::BoundedLinear, SchemeEnum::BSpline };
+  return {
+    SchemeEnum::NonOscillatory, SchemeEnum::Linear, SchemeEnum::BoundedLinear, SchemeEnum::BSpline, SchemeEnum::Restored
+  };
 }
 
 inline ref::Scheme
@@ -43,6 +45,8 @@ ToReference(SchemeEnum scheme)
       return ref::Scheme::Linear;
     case SchemeEnum::BoundedLinear:
       return ref::Scheme::BoundedLinear;
+    case SchemeEnum::Restored:
+      return ref::Scheme::Restored;
     default:
       return ref::Scheme::BSpline;
   }

@@ -3,7 +3,8 @@
 
 #include "SubdivisionTestHelpers.h"
 
-#include "itkStreamPastCache.h"
+#include "NonOscillatorySubdivision/Kernel.h"
+#include "memory/NonTemporalWriter.h"
 
 #include <algorithm>
 #include <numeric>
@@ -93,31 +94,33 @@ constexpr std::size_t RowLength = 2 * (70 + 16);
 
 /** Where in a row of the kernel's children each child stands, lower, upper, lower, ... */
 std::vector<std::size_t>
-FindChildren(std::size_t count)
+FindChildren(std::size_t count, const itk::Subdivision::Target & target)
 {
   std::vector<float> row(RowLength);
   std::iota(row.begin(), row.end(), 0.0f);
   std::vector<float> children(2 * count);
-  itk::InterleaveChildren(row.data(), count, children.data());
+  itk::Subdivision::ChildRow<float>(row.data(), 2 * count, true, target)
+    .CopyTo(itk::Subdivision::ElementType::Float, children.data());
   return { children.begin(), children.end() };
 }
 
 /** The conversion of rows in vector code, at every position of rows of every length up to 70. */
 template <typename TInteger>
 void
-ExpectRowsConverted()
+ExpectRowsConverted(const itk::Subdivision::Target & target)
 {
   const auto values = DelicateConversions<TInteger>();
   for (std::size_t count = 1; count <= 70; ++count)
   {
-    const auto            places = FindChildren(count);
+    const auto            places = FindChildren(count, target);
     std::vector<float>    row(RowLength);
     std::vector<TInteger> out(2 * count + 1, TInteger{ 77 });
     for (std::size_t i = 0; i < 2 * count; ++i)
     {
       row[places[i]] = static_cast<float>(values[(i + count) % values.size()].first);
     }
-    itk::InterleaveChildren(row.data(), count, out.data());
+    itk::Subdivision::ChildRow<float>(row.data(), 2 * count, true, target)
+      .CopyTo(itk::Subdivision::ElementTypeOf<TInteger>(), out.data());
     for (std::size_t i = 0; i < 2 * count; ++i)
     {
       EXPECT_EQ(+out[i], +values[(i + count) % values.size()].second) << row[places[i]] << ", row of " << count;
@@ -128,11 +131,11 @@ ExpectRowsConverted()
 
 /** Every child of a row is there once. */
 void
-ExpectChildrenOnce()
+ExpectChildrenOnce(const itk::Subdivision::Target & target)
 {
   for (std::size_t count = 1; count <= 70; ++count)
   {
-    auto places = FindChildren(count);
+    auto places = FindChildren(count, target);
     std::sort(places.begin(), places.end());
     EXPECT_EQ(std::adjacent_find(places.begin(), places.end()), places.end()) << count;
     EXPECT_LT(places.back(), RowLength);
@@ -145,7 +148,10 @@ ExpectValuesRounded()
 {
   for (const auto & [value, expected] : DelicateConversions<TInteger>())
   {
-    EXPECT_EQ((itk::SubdivisionRound<TInteger, double>(value)), expected) << value;
+    TInteger rounded{};
+    itk::Subdivision::ChildRow<double>(&value, 1, false, itk::Subdivision::Target::Fastest())
+      .CopyTo(itk::Subdivision::ElementTypeOf<TInteger>(), &rounded);
+    EXPECT_EQ(rounded, expected) << value;
   }
 }
 
@@ -153,17 +159,16 @@ ExpectValuesRounded()
 
 TEST(NonOscillatorySubdivisionConversion, RowsInVectorCode)
 {
-  for (const std::string & target : itk::GetSubdivisionTargets())
+  for (const std::string & name : itk::Subdivision::Target::GetNames())
   {
-    SCOPED_TRACE(target);
-    itk::SetSubdivisionTarget(target);
-    ExpectRowsConverted<std::int8_t>();
-    ExpectRowsConverted<std::uint8_t>();
-    ExpectRowsConverted<std::int16_t>();
-    ExpectRowsConverted<std::uint16_t>();
-    ExpectChildrenOnce();
+    SCOPED_TRACE(name);
+    const itk::Subdivision::Target & target = itk::Subdivision::Target::Named(name);
+    ExpectRowsConverted<std::int8_t>(target);
+    ExpectRowsConverted<std::uint8_t>(target);
+    ExpectRowsConverted<std::int16_t>(target);
+    ExpectRowsConverted<std::uint16_t>(target);
+    ExpectChildrenOnce(target);
   }
-  itk::SetSubdivisionTarget("");
 }
 
 /** Copies of every length to every place within a cache line, with nothing written around them. */
@@ -178,7 +183,7 @@ TEST(NonOscillatorySubdivisionConversion, CopiesPastTheCache)
       std::vector<unsigned char> expected(400, 0);
       std::copy_n(from.data() + 3, bytes, expected.data() + begin);
       {
-        itk::StreamPastCache stream;
+        itk::Subdivision::NonTemporalWriter stream;
         stream.Copy(from.data() + 3, bytes, to.data() + begin);
       }
       ASSERT_EQ(to, expected) << bytes << " bytes at " << begin;
@@ -200,7 +205,7 @@ TEST(NonOscillatorySubdivisionConversion, ContinuesCopiesPastTheCache)
       std::copy_n(from.data(), copies * bytes, expected.data() + begin);
       std::copy_n(from.data() + 11, bytes, expected.data() + 1500);
       {
-        itk::StreamPastCache stream;
+        itk::Subdivision::NonTemporalWriter stream;
         for (std::size_t copy = 0; copy < copies; ++copy)
         {
           stream.Copy(from.data() + copy * bytes, bytes, to.data() + begin + copy * bytes);

@@ -7,6 +7,8 @@
 #include "itkRGBPixel.h"
 #include "itkVector.h"
 
+#include <complex>
+
 using namespace SubdivisionTest;
 
 TEST(NonOscillatorySubdivisionPixels, SignedChar)
@@ -58,4 +60,50 @@ TEST(NonOscillatorySubdivisionPixels, DoubleToUnsignedChar)
 TEST(NonOscillatorySubdivisionPixels, FloatToShort)
 {
   CompareWithReference<itk::Image<float, 2>, itk::Image<short, 2>>(30, -40000.0, 40000.0);
+}
+
+/** The real and the imaginary part each on its own. */
+TEST(NonOscillatorySubdivisionPixels, Complex)
+{
+  CompareWithReference<itk::Image<std::complex<float>, 2>>(30, -1.0, 1.0, 2);
+  CompareWithReference<itk::Image<std::complex<double>, 3>>(10, -1.0, 1.0, 2);
+}
+
+/** The boundary conditions that are asked, too, supply both parts. */
+TEST(NonOscillatorySubdivisionPixels, ComplexOutside)
+{
+  using Complexes = itk::Image<std::complex<double>, 1>;
+  class Ones : public itk::ConstantBoundaryCondition<Complexes>
+  {
+  public:
+    std::complex<double>
+    GetPixel(const IndexType &, const Complexes *) const override
+    {
+      return { 1.0, -2.0 };
+    }
+  };
+  const auto input = MakeImage<Complexes>(MakeRegion<Complexes>({ 0 }, { 6 }));
+  input->FillBuffer({ 1.0, -2.0 });
+  Ones ones;
+  auto filter = itk::NonOscillatorySubdivisionImageFilter<Complexes>::New();
+  filter->SetBoundaryCondition(&ones);
+  const auto output = RunFilter(filter.GetPointer(), input.GetPointer());
+  for (long m = 0; m < 12; ++m)
+  {
+    EXPECT_EQ(output->GetPixel({ { m } }), std::complex<double>(1.0, -2.0)) << m;
+  }
+}
+
+/** A linear scheme overshoots a step of bits; what is stored are bits. */
+TEST(NonOscillatorySubdivisionPixels, Bool)
+{
+  using Bits = itk::Image<bool, 1>;
+  auto filter = itk::NonOscillatorySubdivisionImageFilter<Bits>::New();
+  filter->SetScheme(SchemeEnum::Linear);
+  const auto input = LineOf<Bits>({ 0, 0, 0, 0, 0, 1, 1, 1, 1, 1 });
+  const auto output = RunFilter(filter.GetPointer(), input.GetPointer());
+  for (long m = 0; m < 20; ++m)
+  {
+    EXPECT_EQ(output->GetPixel({ { m } }), m >= 10) << m;
+  }
 }

@@ -4,7 +4,10 @@
 
 #include "SubdivisionCommonFilters.h"
 
-#include "itkSubdivisionKernel.h"
+#include "NonOscillatorySubdivision/Target.h"
+
+#include <atomic>
+#include <thread>
 
 using namespace SubdivisionTest;
 
@@ -15,22 +18,11 @@ using ByteImage = itk::Image<unsigned char, 3>;
 using SignedByteImage = itk::Image<signed char, 3>;
 using ShortImage = itk::Image<short, 3>;
 
-/** Makes filters use a target as long as this object lives. */
-class TargetInUse
-{
-public:
-  explicit TargetInUse(const std::string & name) { itk::SetSubdivisionTarget(name); }
-  ~TargetInUse() { itk::SetSubdivisionTarget(""); }
-  TargetInUse(const TargetInUse &) = delete;
-  TargetInUse &
-  operator=(const TargetInUse &) = delete;
-};
-
 /** The targets besides the portable one. */
 std::vector<std::string>
 VectorTargets()
 {
-  auto targets = itk::GetSubdivisionTargets();
+  auto targets = itk::Subdivision::Target::GetNames();
   targets.pop_back();
   return targets;
 }
@@ -70,9 +62,9 @@ SubdividedBy(const std::string &                       target,
              const Setting &                           setting,
              const typename TOutputImage::RegionType * region = nullptr)
 {
-  const TargetInUse               inUse(target);
   BoundaryConditions<TInputImage> boundaries;
   auto                            filter = itk::NonOscillatorySubdivisionImageFilter<TInputImage, TOutputImage>::New();
+  filter->SetTarget(target);
   filter->SetScheme(setting.scheme);
   filter->SetBoundaryCondition(boundaries.Get(setting.boundary));
   SetAxes(filter.GetPointer(), setting.axes);
@@ -178,22 +170,67 @@ ExpectIntegersAgree(double low, double high, double nearTie)
 
 TEST(NonOscillatorySubdivisionTargets, PortableIsTheLast)
 {
-  const auto targets = itk::GetSubdivisionTargets();
+  const auto targets = itk::Subdivision::Target::GetNames();
   ASSERT_FALSE(targets.empty());
   EXPECT_EQ(targets.back(), "portable");
-  EXPECT_EQ(itk::GetSubdivisionTarget(), targets.front());
+  EXPECT_EQ(itk::Subdivision::Target::Fastest().GetName(), targets.front());
 }
 
 TEST(NonOscillatorySubdivisionTargets, AreChosenByName)
 {
-  for (const std::string & target : itk::GetSubdivisionTargets())
+  auto filter = FloatFilter::New();
+  EXPECT_EQ(filter->GetTarget(), "");
+  for (const std::string & target : itk::Subdivision::Target::GetNames())
   {
-    const TargetInUse inUse(target);
-    EXPECT_EQ(itk::GetSubdivisionTarget(), target);
+    filter->SetTarget(target);
+    EXPECT_EQ(filter->GetTarget(), target);
   }
-  EXPECT_EQ(itk::GetSubdivisionTarget(), itk::GetSubdivisionTargets().front());
-  EXPECT_THROW(itk::SetSubdivisionTarget("abacus"), std::invalid_argument);
-  EXPECT_EQ(itk::GetSubdivisionTarget(), itk::GetSubdivisionTargets().front());
+  const std::string last = filter->GetTarget();
+  try
+  {
+    filter->SetTarget("abacus");
+    FAIL() << "a target of no such name was accepted";
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    for (const std::string & target : itk::Subdivision::Target::GetNames())
+    {
+      EXPECT_NE(std::string(error.GetDescription()).find(target), std::string::npos) << error.GetDescription();
+    }
+  }
+  EXPECT_EQ(filter->GetTarget(), last);
+  filter->SetTarget("");
+  EXPECT_EQ(filter->GetTarget(), "");
+}
+
+/** A filter that changes its target while another runs in another thread changes nothing of its result. */
+TEST_F(NonOscillatorySubdivisionVectorTargets, BelongToOneFilter)
+{
+  const auto input = MakeImage<FloatImage>(MakeRegion<FloatImage>({ 0, 0, 0 }, { 90, 60, 50 }));
+  FillWithTestData(input.GetPointer(), -1.0, 1.0, 0);
+  const Setting     setting{ SchemeEnum::NonOscillatory, BoundaryKind::ZeroFlux, { true, true, true } };
+  const auto        expected = SubdividedBy<FloatImage, FloatImage>("", input.GetPointer(), setting);
+  std::atomic<bool> isDone{ false };
+  std::thread       other([&] {
+    auto small = FloatFilter::New();
+    small->SetInput(
+      ImageOf<FloatImage>(MakeRegion<FloatImage>({ 0, 0, 0 }, { 3, 3, 3 }), [](const auto &) { return 1; }));
+    while (!isDone)
+    {
+      for (const std::string & target : itk::Subdivision::Target::GetNames())
+      {
+        small->SetTarget(target);
+        small->Update();
+      }
+    }
+  });
+  for (int run = 0; run < 5; ++run)
+  {
+    const auto output = SubdividedBy<FloatImage, FloatImage>("", input.GetPointer(), setting);
+    EXPECT_TRUE(SameBytes(output.GetPointer(), expected.GetPointer()));
+  }
+  isDone = true;
+  other.join();
 }
 
 TEST_F(NonOscillatorySubdivisionVectorTargets, FloatsAgree) { ExpectRealsAgree<FloatImage>(8.0); }
@@ -241,7 +278,7 @@ TEST(NonOscillatorySubdivisionTargets, PartsAreThoseOfTheWhole)
         << target << ", " << setting << ", " << region;
     }
   };
-  for (const std::string & target : itk::GetSubdivisionTargets())
+  for (const std::string & target : itk::Subdivision::Target::GetNames())
   {
     for (const Setting & setting : SettingsFor(3))
     {

@@ -231,16 +231,16 @@ class Streaming(ProgramTest):
 
     def test_a_budget_that_cannot_be_kept_is_an_error(self):
         write_meta(self.path("in.mha"), [100, 100, 100], "B", bytes(10 ** 6))
-        for name in ("out.mha", "out.nrrd"):
+        for name in ("out.mha", "out.nii"):
             self.assert_fails(self.run_program(self.path("in.mha"), self.path(name), "--memory", "20M"), 1, "--memory")
-        self.assert_fails(self.run_program(self.path("in.mha"), self.path("out.nrrd"), "--memory", "70M"), 1, "pieces")
+        self.assert_fails(self.run_program(self.path("in.mha"), self.path("out.nii"), "--memory", "70M"), 1, "pieces")
 
     def test_streams_that_do_nothing_are_warned_of(self):
         write_meta(self.path("in.mha"), [6, 5, 4], "h", noise(120))
-        write_compressed_meta(self.path("compressed.mha"), [6, 5, 4], "h", noise(120))
+        write_nifti(self.path("in.nii.gz"), [6, 5, 4], noise(120))
         whole = self.meta("in.mha", "whole.mha").data
-        for names, words in ((("in.mha", "out.nrrd"), "cannot be written"),
-                             (("compressed.mha", "out.mha"), "cannot be read")):
+        for names, words in ((("in.mha", "out.nii"), "cannot be written"),
+                             (("in.nii.gz", "out.mha"), "cannot be read")):
             result = self.run_program(*map(self.path, names), "--streams", 3)
             self.assertEqual(result.returncode, 0)
             self.assertIn("SubdivideVolume: warning: ", result.stderr)
@@ -293,9 +293,9 @@ class Files(ProgramTest):
         self.assertEqual(out.numbers("Offset"), [10 + 2 / 4, 20 - 1 / 4, 30 - 4 / 4])
         self.assertNotIn("ITK_original_spacing", out.fields)
         write_nrrd(self.path("in.nrrd"), [6, 5, 4], "h", noise(120), more=["Patient:=a phantom"])
-        self.subdivide("in.nrrd", "out.nrrd")
+        self.subdivide("in.nrrd", "out.nrrd", "--keep-metadata")
         self.assertIn("Patient:=a phantom", read_nrrd(self.path("out.nrrd"))[0])
-        self.assertEqual(self.meta("in.nrrd", "out.mha").fields["Patient"], "a phantom")
+        self.assertEqual(self.meta("in.nrrd", "out.mha", "--keep-metadata").fields["Patient"], "a phantom")
 
     def test_a_dicom_series(self):
         size, spacing = [8, 6, 5], [0.5, 0.75, 2]

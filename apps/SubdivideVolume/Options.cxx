@@ -1,45 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Options.h"
-#include "PixelComponent.h"
+
+#include "CommandLine.h"
 #include "SlicerDescription.h"
 
-#include <CLI/CLI.hpp>
-
-#include <cerrno>
-#include <cmath>
-#include <cstdlib>
+#include "NonOscillatorySubdivision/Scheme.h"
+#include "NonOscillatorySubdivision/Target.h"
 
 namespace
 {
-std::string
-CheckTension(const std::string & text)
-{
-  double tension = 0.0;
-  return CLI::detail::lexical_cast(text, tension) && std::isfinite(tension) && tension > 1.0
-           ? std::string()
-           : "the tension must be finite and greater than 1, not " + text;
-}
+using itk::Subdivision::ElementType;
 
-bool
-IsNumber(const std::string & text)
-{
-  char * end = nullptr;
-  errno = 0;
-  std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0' && errno != ERANGE;
-}
+constexpr const char * Footer = R"(Examples:
+  SubdivideVolume scan.mha doubled.mha
+  SubdivideVolume --scheme linear --axes xy dicom-folder/ doubled.nii.gz
+  SubdivideVolume --spacing 0.02 slices/ doubled/          folders of TIFF slices
+  SubdivideVolume --raw 1024x1024x800:uint16 scan.raw doubled.nrrd
+  SubdivideVolume --memory 500M huge.mha huge-doubled.mha
+  SubdivideVolume --info scan.mha
+
+Exit status: 0 if the output is complete, 1 if the run failed, 2 if the command line was wrong.)";
 
 std::string
-CheckBoundary(const std::string & text)
+CheckBoundary(std::string & text)
 {
-  return text == "nearest" || text == "mirror" || text == "periodic" || IsNumber(text)
-           ? std::string()
-           : "the boundary must be nearest, mirror, periodic or a number, not " + text;
+  const std::string word = CLI::detail::to_lower(text);
+  if (word == "nearest" || word == "mirror" || word == "periodic")
+  {
+    text = word;
+    return {};
+  }
+  return IsNumber(text) ? std::string() : "it must be nearest, mirror, periodic or a number, not " + text;
 }
 
 std::string
-CheckAxes(const std::string & text)
+CheckAxes(std::string & text)
 {
+  text = CLI::detail::to_lower(text);
   const bool lettersOnly = text.find_first_not_of("xyzt") == std::string::npos;
   bool       once = true;
   for (const char axis : text)
@@ -48,45 +45,147 @@ CheckAxes(const std::string & text)
   }
   return !text.empty() && text.size() <= 3 && lettersOnly && once
            ? std::string()
-           : "the axes must be one to three different letters of x, y, z and t, not " + text;
+           : "it must be one to three different letters of x, y, z and t, not " + text;
+}
+
+/** The word becomes the number of bytes, which CLI11 then reads. */
+std::string
+BytesToNumber(std::string & text)
+{
+  try
+  {
+    text = std::to_string(ParseBytes(text));
+    return {};
+  }
+  catch (const std::invalid_argument & error)
+  {
+    return error.what();
+  }
+}
+
+std::vector<std::string>
+GetSchemeNames()
+{
+  std::vector<std::string> names;
+  for (const itk::Subdivision::Scheme & scheme : itk::Subdivision::Schemes)
+  {
+    names.emplace_back(scheme.Name);
+  }
+  return names;
+}
+
+std::vector<std::string>
+GetTypeNames()
+{
+  std::vector<std::string> names = { "same" };
+  for (auto type = ElementType::UInt8; type <= ElementType::Double;
+       type = static_cast<ElementType>(static_cast<int>(type) + 1))
+  {
+    names.emplace_back(GetName(type));
+  }
+  return names;
 }
 
 void
-AddOptions(CLI::App & app, Options & options)
+AddComputation(CLI::App & app, Options & options)
 {
-  app.add_option("INPUT", options.Input, "The image file, or a folder that holds a DICOM series")->required();
-  app.add_option("OUTPUT", options.Output, "The image file to write; its ending says the format")->required();
-
-  std::vector<std::string> types = GetPixelComponentNames();
-  types.insert(types.begin(), "same");
-  app.add_option("--scheme", options.Scheme, "The subdivision scheme")
+  app.add_option("--scheme", options.Scheme, "The scheme: " + CLI::detail::join(GetSchemeNames(), ", "))
     ->capture_default_str()
-    ->check(CLI::IsMember({ "nonoscillatory", "linear", "bounded", "bspline" }));
-  app.add_option("--tension", options.Tension, "How close the non-oscillatory scheme keeps to the linear one; > 1")
-    ->capture_default_str()
-    ->check(CLI::Validator(CheckTension, ""));
+    ->transform(OneOf(GetSchemeNames()));
+  app
+    .add_option("--tension",
+                options.Tension,
+                "How close the nonoscillatory and the restored scheme keep to the linear one: greater than 1; for "
+                "restored, 0 or greater")
+    ->capture_default_str();
   app.add_option("--boundary", options.Boundary, "Beyond the image: nearest, mirror, periodic or a value")
     ->capture_default_str()
-    ->check(CLI::Validator(CheckBoundary, ""));
+    ->transform(CLI::Validator(CheckBoundary, ""));
   app.add_option("--axes", options.Axes, "The axes to subdivide, such as xyz or xy (default: the first three)")
-    ->check(CLI::Validator(CheckAxes, ""));
-  app.add_option("--output-type", options.OutputType, "The pixel component type of the output")
+    ->transform(CLI::Validator(CheckAxes, ""));
+  app.add_option("--output-type", options.OutputType, "The type of the output: " + CLI::detail::join(GetTypeNames()))
     ->capture_default_str()
-    ->check(CLI::IsMember(types));
-  app.add_option("--series", options.Series, "The DICOM series, by its UID, where the folder holds several");
+    ->transform(OneOf(GetTypeNames()));
+  app
+    .add_option("--target",
+                options.Target,
+                "The instruction set: " + CLI::detail::join(itk::Subdivision::Target::GetNames(), ", ") +
+                  " (default: the first). Results of two may differ in the last place")
+    ->transform(OneOf(itk::Subdivision::Target::GetNames()));
+}
+
+void
+AddResources(CLI::App & app, Options & options)
+{
   app.add_option("--threads", options.Threads, "Number of threads (default: all processors)")
     ->check(CLI::Range(1u, 1024u));
   auto * streams =
-    app.add_option("--streams", options.Streams, "Work in at least this many pieces, one after the other")
-      ->check(CLI::Range(1u, 1000000u));
-  app.add_option("--memory", options.Memory, "Work in so many pieces that this much memory is enough, such as 500M")
-    ->transform(CLI::AsSizeValue(true))
-    ->check(CLI::PositiveNumber)
+    app.add_option("--streams", options.Streams, "Work in at least this many pieces")->check(CLI::Range(1u, 1000000u));
+  app
+    .add_option("--memory",
+                options.Memory,
+                "Work in so many pieces that this much memory is enough, such as 500M, 0.5G or 1.5GiB")
+    ->type_name("SIZE")
+    ->transform(CLI::Validator(BytesToNumber, ""))
     ->excludes(streams);
-  app.add_flag("--compress", options.Compress, "Compress the output where its format can");
-  app.add_flag("--quiet", options.Quiet, "Print nothing but errors");
-  app.add_flag("--progress-xml", options.ProgressXml, "Report progress on stdout as 3D Slicer reads it");
+}
+
+void
+AddOutput(CLI::App & app, Options & options)
+{
+  app.add_flag("--compress", options.Writing.Compress, "Compress the output where its format can");
+  app
+    .add_option("--compression-level",
+                options.Writing.CompressionLevel,
+                "Compress, from 1 (fast) to 9 (small); default: the format's own")
+    ->check(CLI::Range(1, 9));
+  app.add_flag("--keep-metadata",
+               options.Writing.KeepMetadata,
+               "Keep what else the input's header says, patients' names included");
+}
+
+void
+AddMessages(CLI::App & app, Options & options)
+{
+  auto * json = app.add_flag("--json", options.Json, "Print the summary as a JSON object");
+  app.add_flag("--quiet", options.Quiet, "Print nothing but errors, and what --json asks for");
+  app.add_flag("--progress-xml", options.ProgressXml, "Report progress on stdout as 3D Slicer reads it")
+    ->excludes(json);
+}
+
+void
+AddTasks(CLI::App & app, Options & options)
+{
+  const auto add = [&](const char * name, Task task, const char * description) {
+    app.add_flag_callback(name, [&options, task] { options.Task = task; }, description);
+  };
+  add("--info", Task::Inform, "Say what would be read and written, and what that takes; OUTPUT may be left out");
+  add("--list-series", Task::ListSeries, "List the DICOM series of the folder INPUT");
+  add("--formats", Task::ListFormats, "List the image formats");
+  add("--xml", Task::DescribeItself, "Print the description of this program as a 3D Slicer module");
   app.set_version_flag("--version", std::string("SubdivideVolume ") + GetProgramVersion());
+}
+
+void
+CheckTogether(Options & options)
+{
+  try
+  {
+    CheckTension(itk::Subdivision::FindScheme(options.Scheme), options.Tension);
+  }
+  catch (const std::invalid_argument & error)
+  {
+    throw UsageError("--tension " + CLI::detail::to_string(options.Tension) + ": " + error.what());
+  }
+  if (options.Task != Task::ListFormats && options.Task != Task::DescribeItself)
+  {
+    Require(options.Input, "INPUT");
+  }
+  if (options.Task == Task::Subdivide)
+  {
+    Require(options.Output, "OUTPUT");
+  }
+  options.Writing.Compress = options.Writing.Compress || options.Writing.CompressionLevel > 0;
 }
 } // namespace
 
@@ -94,31 +193,23 @@ std::optional<int>
 ParseCommandLine(int argc, char * argv[], Options & options)
 {
   CLI::App app("Doubles the resolution of an image with the non-oscillatory subdivision scheme.", "SubdivideVolume");
-  AddOptions(app, options);
-  bool xml = false;
-  app.add_flag_callback(
-    "--xml",
-    [&xml] {
-      xml = true;
-      throw CLI::Success();
-    },
-    "Print the description of this program as a 3D Slicer module");
-  try
+  app.footer(Footer);
+  app.add_option("INPUT", options.Input, "An image file, or a folder with a DICOM series or with slices");
+  app.add_option(
+    "OUTPUT",
+    options.Output,
+    "The image file to write, whose ending says the format, or a folder for slices (a name that ends in /)");
+  AddComputation(app, options);
+  AddInputOptions(app, options.Reading);
+  AddRawOption(app, "--raw", options.Reading.Raw, "INPUT");
+  AddOutput(app, options);
+  AddResources(app, options);
+  AddMessages(app, options);
+  AddTasks(app, options);
+  const std::optional<int> exitCode = ParseArguments(app, argc, argv);
+  if (!exitCode)
   {
-    app.parse(argc, argv);
+    CheckTogether(options);
   }
-  catch (const CLI::ParseError & error)
-  {
-    if (xml)
-    {
-      std::cout << GetSlicerDescription();
-      return 0;
-    }
-    if (error.get_exit_code() == 0)
-    {
-      return app.exit(error);
-    }
-    throw UsageError(error.what());
-  }
-  return std::nullopt;
+  return exitCode;
 }

@@ -2,37 +2,47 @@
 #ifndef Options_h
 #define Options_h
 
+#include "VolumeReader.h"
+#include "VolumeWriter.h"
+
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
+
+/** What the program is to do. */
+enum class Task
+{
+  Subdivide,
+  Inform,        // --info
+  ListSeries,    // --list-series
+  ListFormats,   // --formats
+  DescribeItself // --xml
+};
 
 /** What the user asked for on the command line. */
 struct Options
 {
+  ::Task        Task = Task::Subdivide;
   std::string   Input;
-  std::string   Output;
+  std::string   Output; // empty where the task has none
+  InputOptions  Reading;
+  OutputOptions Writing;
   std::string   Scheme = "nonoscillatory";
   double        Tension = 2.0;
   std::string   Boundary = "nearest";
   std::string   Axes;                // letters of x, y, z, t; empty: the first three
-  std::string   OutputType = "same"; // or the name of a pixel component
-  std::string   Series;              // the DICOM series to take, by its UID
+  unsigned int  Levels = 1;          // how many times the resolution is doubled
+  std::string   OutputType = "same"; // or the name of an element type
+  std::string   Target;              // the instruction set; empty: the fastest
   unsigned int  Threads = 0;         // 0: as many as there are processors
   unsigned int  Streams = 0;         // 0: chosen from the memory
   std::uint64_t Memory = 0;          // bytes; 0: no budget given
-  bool          Compress = false;
   bool          Quiet = false;
+  bool          Json = false;
   bool          ProgressXml = false;
 };
 
-/** A command line that makes no sense. */
-struct UsageError : std::runtime_error
-{
-  using std::runtime_error::runtime_error;
-};
-
-/** Reads the command line. Returns an exit code if the program has nothing left to do (--help, --xml, ...).
+/** Reads the command line. Returns an exit code if the program has nothing left to do (--help, --version).
  * \throw UsageError */
 std::optional<int>
 ParseCommandLine(int argc, char * argv[], Options & options);

@@ -2,81 +2,104 @@
 #include "Pieces.h"
 
 #include <algorithm>
-#include <fstream>
-
-#include <unistd.h>
 
 namespace
 {
-/** A piece has at least a plane, or a row where there is only one plane. */
-unsigned int
-GetFirstSplitAxis(const ImageRegion & whole)
+/** How many parts each axis is cut into: some of one axis, all of those after it, none of those before. */
+std::vector<std::uint64_t>
+GetCuts(const Box & whole, const std::uint64_t number)
 {
-  return whole.GetSize(2) * whole.GetSize(3) > 1 ? 2 : 1;
-}
-
-/** The size of a piece: some of one axis, all of the axes before it, one of those after it. */
-ImageRegion::SizeType
-GetPieceSize(const ImageRegion & whole, std::uint64_t number)
-{
-  ImageRegion::SizeType size = whole.GetSize();
-  std::uint64_t         pieces = 1;
-  for (unsigned int axis = Axes; axis-- > GetFirstSplitAxis(whole) && pieces < number;)
+  std::vector<std::uint64_t> cuts(whole.size(), 1);
+  std::uint64_t              pieces = 1;
+  for (std::size_t axis = whole.size(); axis-- > 1 && pieces < number;)
   {
-    const std::uint64_t cuts = std::min<std::uint64_t>((number + pieces - 1) / pieces, whole.GetSize(axis));
-    size[axis] = whole.GetSize(axis) / cuts;
-    pieces *= cuts;
+    cuts[axis] = std::min<std::uint64_t>((number + pieces - 1) / pieces, whole[axis].Size);
+    pieces *= cuts[axis];
   }
-  return size;
+  return cuts;
 }
 } // namespace
 
-std::vector<ImageRegion>
-SplitIntoPieces(const ImageRegion & whole, std::uint64_t number)
+std::uint64_t
+CountElements(const Box & box)
 {
-  const ImageRegion::SizeType size = GetPieceSize(whole, number);
-  std::vector<ImageRegion>    pieces = { whole };
-  for (unsigned int axis = Axes; axis-- > 0;)
+  std::uint64_t number = 1;
+  for (const Interval & interval : box)
   {
-    std::vector<ImageRegion> parts;
-    for (const ImageRegion & piece : pieces)
+    number *= interval.Size;
+  }
+  return number;
+}
+
+std::vector<Box>
+SplitIntoPieces(const Box & whole, const std::uint64_t number)
+{
+  const std::vector<std::uint64_t> cuts = GetCuts(whole, number);
+  std::vector<Box>                 pieces = { whole };
+  for (std::size_t axis = whole.size(); axis-- > 0;)
+  {
+    // Where to cut: sizes differ by one at most.
+    const std::uint64_t size = whole[axis].Size / cuts[axis];
+    const std::uint64_t larger = whole[axis].Size % cuts[axis];
+    std::vector<Box>    parts;
+    for (const Box & piece : pieces)
     {
-      for (itk::SizeValueType start = 0; start < whole.GetSize(axis); start += size[axis])
+      for (std::uint64_t cut = 0; cut < cuts[axis]; ++cut)
       {
-        ImageRegion part = piece;
-        part.SetIndex(axis, whole.GetIndex(axis) + static_cast<itk::IndexValueType>(start));
-        part.SetSize(axis, std::min(size[axis], whole.GetSize(axis) - start));
+        Box part = piece;
+        part[axis] = { whole[axis].First + static_cast<std::int64_t>(cut * size + std::min(cut, larger)),
+                       size + (cut < larger ? 1 : 0) };
         parts.push_back(part);
       }
     }
-    pieces = parts;
+    pieces = std::move(parts);
   }
   return pieces;
 }
 
 std::uint64_t
-GetMaximumNumberOfPieces(const ImageRegion & whole)
+GetMaximumNumberOfPieces(const Box & whole)
 {
-  std::uint64_t number = 1;
-  for (unsigned int axis = GetFirstSplitAxis(whole); axis < Axes; ++axis)
+  return whole.front().Size > 0 ? CountElements(whole) / whole.front().Size : 0;
+}
+
+void
+ForEachRange(const Box & box, const Box & part, const std::function<void(std::uint64_t, std::uint64_t)> & visit)
+{
+  if (CountElements(part) == 0)
   {
-    number *= whole.GetSize(axis);
+    return;
   }
-  return number;
-}
-
-std::uint64_t
-GetResidentBytes()
-{
-  std::ifstream           statistics("/proc/self/statm");
-  std::uint64_t           size = 0;
-  std::uint64_t           resident = 0;
-  constexpr std::uint64_t guess = 100000000; // where there is no such file
-  return statistics >> size >> resident ? resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : guess;
-}
-
-std::uint64_t
-GetMachineBytes()
-{
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  // The axes before `first` are complete in the part, so they lie side by side in memory.
+  std::size_t   first = 0;
+  std::uint64_t side = 1;
+  for (; first < box.size() && part[first] == box[first]; ++first)
+  {
+    side *= box[first].Size;
+  }
+  std::vector<std::uint64_t> strides(box.size());
+  std::uint64_t              offset = 0;
+  std::uint64_t              stride = 1;
+  for (std::size_t axis = 0; axis < box.size(); ++axis)
+  {
+    strides[axis] = stride;
+    offset += stride * static_cast<std::uint64_t>(part[axis].First - box[axis].First);
+    stride *= box[axis].Size;
+  }
+  const std::uint64_t        count = first < box.size() ? side * part[first].Size : side;
+  std::vector<std::uint64_t> position(box.size(), 0);
+  for (std::size_t axis = 0; axis < box.size();)
+  {
+    visit(offset, count);
+    for (axis = first + 1; axis < box.size(); ++axis)
+    {
+      offset += strides[axis];
+      if (++position[axis] < part[axis].Size)
+      {
+        break;
+      }
+      offset -= strides[axis] * part[axis].Size;
+      position[axis] = 0;
+    }
+  }
 }

@@ -2,31 +2,31 @@
 #ifndef Pieces_h
 #define Pieces_h
 
-#include "itkImageRegion.h"
+#include "NonOscillatorySubdivision/ArrayView.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
-/** Every image is processed with four axes; those that its file lacks have one sample. */
-inline constexpr unsigned int Axes = 4;
+using itk::Subdivision::Box;
+using itk::Subdivision::Interval;
 
-using ImageRegion = itk::ImageRegion<Axes>;
-
-/** Splits an image into at least \c number regions of about the same size, if it has that many planes (2-D: rows).
- * Each region is contiguous in a file. */
-std::vector<ImageRegion>
-SplitIntoPieces(const ImageRegion & whole, std::uint64_t number);
-
-/** The largest number of pieces that makes sense. */
+/** The number of elements of a box. */
 std::uint64_t
-GetMaximumNumberOfPieces(const ImageRegion & whole);
+CountElements(const Box & box);
 
-/** What a process of this size occupies now, in bytes. */
-std::uint64_t
-GetResidentBytes();
+/** Splits a box into at least \c number boxes of about the same size, if it has so many rows. Each of them continues
+ * the one before, so that in a file it is one range of bytes: complete planes, or complete rows of one plane. */
+std::vector<Box>
+SplitIntoPieces(const Box & whole, std::uint64_t number);
 
-/** The memory of this machine, in bytes. */
+/** The largest number of pieces that makes sense: a row each. */
 std::uint64_t
-GetMachineBytes();
+GetMaximumNumberOfPieces(const Box & whole);
+
+/** Calls \c visit with the offset and the number of elements of each range that \c part occupies in an array of \c box,
+ * which it lies within; in order. */
+void
+ForEachRange(const Box & box, const Box & part, const std::function<void(std::uint64_t, std::uint64_t)> & visit);
 
 #endif

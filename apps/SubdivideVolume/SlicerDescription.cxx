@@ -46,22 +46,24 @@ subdivision to voxel data".]]></acknowledgements>
       <longflag>--scheme</longflag>
       <label>Scheme</label>
       <description><![CDATA[nonoscillatory: no overshoots at isolated edges; linear: sharper, rings at edges;
-bounded: linear, clamped to the local range; bspline: the smoothest]]></description>
+bounded: linear, clamped to the local range; bspline: the smoothest; restored: smooth surfaces with their details
+and volumes]]></description>
       <default>nonoscillatory</default>
       <element>nonoscillatory</element>
       <element>linear</element>
       <element>bounded</element>
       <element>bspline</element>
+      <element>restored</element>
     </string-enumeration>
     <double>
       <name>tension</name>
       <longflag>--tension</longflag>
       <label>Tension</label>
-      <description><![CDATA[How close the non-oscillatory scheme keeps to the linear one;
-greater than 1]]></description>
+      <description><![CDATA[How close the non-oscillatory and the restored scheme keep to the
+linear one; greater than 1, for the restored scheme 0 or greater]]></description>
       <default>2</default>
       <constraints>
-        <minimum>1.01</minimum>
+        <minimum>0</minimum>
         <maximum>100</maximum>
         <step>0.1</step>
       </constraints>

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Doubles the resolution of an image file. See SubdivideVolume --help.
+// Doubles the resolution of an image. See SubdivideVolume --help.
 
+#include "CommandLine.h"
+#include "Dicom.h"
 #include "FileIntegrity.h"
-#include "Interrupt.h"
+#include "FormatTable.h"
+#include "LevelChain.h"
 #include "LibraryMessages.h"
-#include "MemoryPlan.h"
 #include "OneLineMessage.h"
 #include "Options.h"
-#include "Subdivide.h"
-
-#include "itkMultiThreaderBase.h"
+#include "Pipeline.h"
+#include "Plan.h"
+#include "Progress.h"
+#include "SlicerDescription.h"
+#include "Summary.h"
+#include "VoxelCounter.h"
+#include "Warnings.h"
+#include "WatchedRun.h"
 
 #include <cstdio>
 #include <new>
@@ -18,29 +25,11 @@
 
 namespace
 {
-enum ExitCode
-{
-  Success = 0,
-  RunFailed = 1,
-  WrongUsage = 2
-};
-
-[[noreturn]] void
+ExitCode
 Fail(ExitCode code, const std::string & message)
 {
   std::fprintf(GetTerminal(), "SubdivideVolume: %s\n", MakeOneLine(message).c_str());
-  std::fflush(nullptr);
-  // Not by way of the libraries' own ends: after a failed write, HDF5 complains at length there.
-  _exit(code);
-}
-
-void
-Warn(const Options & options, const std::string & message)
-{
-  if (!options.Quiet)
-  {
-    std::fprintf(GetTerminal(), "SubdivideVolume: warning: %s\n", message.c_str());
-  }
+  return code;
 }
 
 Progress::Style
@@ -57,89 +46,149 @@ GetProgressStyle(const Options & options)
   return isatty(fileno(GetTerminal())) ? Progress::Style::Bar : Progress::Style::Lines;
 }
 
-template <typename T>
-std::string
-Join(const std::vector<T> & values)
+std::unique_ptr<VolumeReader>
+Open(const Options & options, Warnings & warnings)
 {
-  std::ostringstream text;
-  for (std::size_t i = 0; i < values.size(); ++i)
+  auto reader =
+    OpenVolume(options.Input, options.Reading, [&warnings](const std::string & text) { warnings.Add(text); });
+  if (reader->GetDescription().IsLabelMap)
   {
-    text << (i > 0 ? " x " : "") << values[i];
+    warnings.Add("the file says that its voxels are labels; between two labels others appear that mean something else");
   }
-  return text.str();
+  return reader;
+}
+
+std::unique_ptr<VolumeWriter>
+Create(const Options & options, unsigned int threads, Warnings & warnings)
+{
+  OutputOptions writing = options.Writing;
+  writing.Threads = threads;
+  return CreateVolume(options.Output, writing, [&warnings](const std::string & text) { warnings.Add(text); });
 }
 
 void
-PrintImage(const char * name, const ImageGrid & grid, PixelComponent component, const PixelRange & range)
+WarnOfStreams(const Options & options, const VolumeReader & reader, const VolumeWriter & writer, Warnings & warnings)
 {
-  std::printf("%-6s  %s %s, spacing %s, range %g to %g\n",
-              name,
-              Join(grid.Size).c_str(),
-              GetPixelComponentName(component).c_str(),
-              Join(grid.Spacing).c_str(),
-              range.Minimum,
-              range.Maximum);
+  if (options.Streams > 1 && !writer.WritesParts())
+  {
+    warnings.Add("the output cannot be written in pieces; --streams does nothing");
+  }
+  else if (options.Streams > 1 && !reader.ReadsParts())
+  {
+    warnings.Add("the input cannot be read in pieces; all of it is held in memory");
+  }
 }
 
-/** Exceptions of ITK itself do not always name the file. */
-template <typename TFunction>
-auto
-NameFile(const std::string & path, TFunction && function)
+/** What libraries warned of. */
+void
+PassOn(const LibraryMessages & messages, Warnings & warnings)
+{
+  for (const std::string & warning : FindLibraryWarnings(messages.GetText()))
+  {
+    warnings.Add(warning);
+  }
+}
+
+void
+Inform(const Options & options)
+{
+  const LibraryMessages messages;
+  const WatchedTask     task("cannot process " + options.Input);
+  Warnings              warnings(options.Quiet);
+  const unsigned int    threads = GetNumberOfThreads(options);
+  const auto            reader = Open(options, warnings);
+  const auto            writer = options.Output.empty() ? nullptr : Create(options, threads, warnings);
+  const LevelChain      chain(reader->GetDescription(), options, threads);
+  const Plan            plan = MakePlan(options, chain, *reader, writer.get(), threads);
+  PassOn(messages, warnings);
+  PrintResult(
+    Describe(Forecast{ options, reader->GetDescription(), chain.GetOutput(), plan, warnings.GetAll(), threads }));
+}
+
+void
+Subdivide(const Options & options)
+{
+  const LibraryMessages messages;
+  const WatchedTask     task("cannot process " + options.Input);
+  Warnings              warnings(options.Quiet);
+  const unsigned int    threads = GetNumberOfThreads(options);
+  const auto            reader = Open(options, warnings);
+  const auto            writer = Create(options, threads, warnings);
+  Progress              progress(GetProgressStyle(options));
+  LevelChain            chain(reader->GetDescription(), options, threads);
+  const Plan            plan = MakePlan(options, chain, *reader, writer.get(), threads);
+  VoxelCounter          counter(chain, reader->GetDescription(), threads);
+  Pipeline              pipeline(*reader, chain, *writer, counter, plan);
+  WarnOfStreams(options, *reader, *writer, warnings);
+  writer->Begin(chain.GetOutput());
+  pipeline.Run(progress);
+  CheckMessages(options.Input, messages.GetText());
+  PassOn(messages, warnings);
+  writer->Commit();
+  progress.Finish();
+  const std::string summary = Describe(Summary{ options,
+                                                reader->GetDescription(),
+                                                chain.GetOutput(),
+                                                counter.GetInput(),
+                                                counter.GetOutput(),
+                                                pipeline.GetLosses(),
+                                                warnings.GetAll(),
+                                                plan.Pieces.size(),
+                                                threads,
+                                                progress.GetSeconds() });
+  if (options.Json)
+  {
+    PrintResult(summary);
+  }
+  else if (!options.Quiet)
+  {
+    std::fputs(summary.c_str(), stdout); // the output is complete, whether or not anybody hears of it
+  }
+}
+
+void
+Perform(const Options & options)
+{
+  switch (options.Task)
+  {
+    case Task::Subdivide:
+      return Subdivide(options);
+    case Task::Inform:
+      return Inform(options);
+    case Task::ListSeries:
+      return PrintDicomSeries(ListDicomSeries(options.Input), stdout);
+    case Task::ListFormats:
+      return PrintResult(DescribeFormats(options.Json));
+    case Task::DescribeItself:
+      return PrintResult(GetSlicerDescription());
+  }
+}
+int
+RunProgram(int argc, char * argv[])
 {
   try
   {
-    return function();
+    Options                  options;
+    const std::optional<int> exitCode = ParseCommandLine(argc, argv, options);
+    if (!exitCode)
+    {
+      Perform(options);
+    }
+    return exitCode.value_or(Success);
   }
-  catch (const itk::MemoryAllocationError &)
+  catch (const UsageError & error)
   {
-    throw std::bad_alloc();
+    return Fail(WrongUsage, std::string(error.what()) + " (see --help)");
   }
-  catch (const itk::ExceptionObject & error)
+  catch (const std::bad_alloc &)
   {
-    throw std::runtime_error("cannot process " + path + ": " + error.GetDescription());
+    return Fail(RunFailed,
+                "there is not enough memory; try --memory or --streams, with files that are read and written in pieces "
+                "(see --formats)");
   }
-}
-
-SubdivisionReport
-SubdivideAnyType(const SubdivisionJob & job)
-{
-  return NameFile(job.Options.Input, [&job] {
-    return WithComponentType(job.Input.Component, [&job](auto type) { return Subdivide<decltype(type)>(job); });
-  });
-}
-
-void
-Run(const Options & options)
-{
-  const LibraryMessages messages;
-  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(GetNumberOfThreads(options));
-  const InputImage     input = NameFile(options.Input, [&options] { return OpenInput(options.Input, options.Series); });
-  OutputImage          output(options.Output, options.Compress);
-  const PixelComponent component =
-    options.OutputType == "same" ? input.Component : GetPixelComponent(options.OutputType);
-  if (options.Streams > 1 && !output.CanStream())
+  catch (const std::exception & error)
   {
-    Warn(options, "the output cannot be written in pieces; --streams does nothing");
-  }
-  else if (options.Streams > 1 && !input.CanStream)
-  {
-    Warn(options, "the input cannot be read in pieces; all of it is held in memory");
-  }
-
-  Progress                progress(GetProgressStyle(options));
-  const SubdivisionReport report = SubdivideAnyType({ options, input, output, component, progress });
-  CheckMessages(options.Input, messages.GetText());
-  output.Commit();
-  progress.Finish();
-  if (!options.Quiet)
-  {
-    PrintImage("input", report.InputGrid, input.Component, report.InputRange);
-    PrintImage("output", report.OutputGrid, component, report.OutputRange);
-    std::printf("%-6s  %.2f s, %zu piece%s\n",
-                "time",
-                progress.GetSeconds(),
-                report.NumberOfPieces,
-                report.NumberOfPieces == 1 ? "" : "s");
+    return Fail(RunFailed, error.what());
   }
 }
 } // namespace
@@ -147,28 +196,5 @@ Run(const Options & options)
 int
 main(int argc, char * argv[])
 {
-  WatchForInterrupts();
-  try
-  {
-    Options                  options;
-    const std::optional<int> exitCode = ParseCommandLine(argc, argv, options);
-    if (exitCode)
-    {
-      return *exitCode;
-    }
-    Run(options);
-    return Success;
-  }
-  catch (const UsageError & error)
-  {
-    Fail(WrongUsage, std::string(error.what()) + " (see --help)");
-  }
-  catch (const std::bad_alloc &)
-  {
-    Fail(RunFailed, "there is not enough memory; try --memory or --streams, with .mha or .mhd files");
-  }
-  catch (const std::exception & error)
-  {
-    Fail(RunFailed, error.what());
-  }
+  return RunWatched([&] { return RunProgram(argc, argv); });
 }

@@ -9,6 +9,9 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -50,6 +53,20 @@ public:
     return done;
   }
 
+  /** Reads to the end; returns whether the end of a compressed stream is there, with the checksum of what came before.
+   */
+  bool
+  EndsWell()
+  {
+    std::vector<char> buffer(1 << 18);
+    while (this->Read(buffer.data(), buffer.size()) > 0)
+    {
+    }
+    int error = Z_OK;
+    gzerror(m_File.get(), &error);
+    return error == Z_OK || error == Z_STREAM_END;
+  }
+
 private:
   std::unique_ptr<gzFile_s, int (*)(gzFile)> m_File;
 };
@@ -61,6 +78,15 @@ CheckBytes(const std::string & path, std::uint64_t available, std::uint64_t expe
   {
     throw std::runtime_error("cannot read " + path + ": it is truncated, with " + std::to_string(available) + " of " +
                              std::to_string(expected) + " bytes");
+  }
+}
+
+void
+CheckEnd(const std::string & path, Bytes & bytes)
+{
+  if (!bytes.EndsWell())
+  {
+    throw std::runtime_error("cannot read " + path + ": its compressed data is truncated or damaged");
   }
 }
 
@@ -117,6 +143,7 @@ CheckNifti(const std::string & path)
   {
     constexpr std::uint64_t extension = 4; // the least that lies between the header and the voxels
     CheckBytes(path, bytes.Skip(extension + header.GetDataBytes()), extension + header.GetDataBytes());
+    CheckEnd(path, bytes);
   }
 }
 
@@ -125,7 +152,43 @@ CheckGipl(const std::string & path, const itk::ImageIOBase & imageIO)
 {
   constexpr std::uint64_t header = 256;
   const std::uint64_t     expected = header + static_cast<std::uint64_t>(imageIO.GetImageSizeInBytes());
-  CheckBytes(path, Bytes(path).Skip(expected), expected);
+  Bytes                   bytes(path);
+  CheckBytes(path, bytes.Skip(expected), expected);
+  CheckEnd(path, bytes);
+}
+
+[[noreturn]] void
+FailOfEnd(const std::string & path)
+{
+  throw std::runtime_error("cannot read " + path + ": it is truncated");
+}
+
+/** The end marker must come after the last start of a scan; no scan's data looks like a marker. */
+void
+CheckJpeg(const std::string & path)
+{
+  std::ifstream     file(path, std::ios::binary);
+  const std::string bytes{ std::istreambuf_iterator<char>(file), {} };
+  const auto        scan = bytes.rfind("\xff\xda");
+  if (scan == std::string::npos || bytes.find("\xff\xd9", scan) == std::string::npos)
+  {
+    FailOfEnd(path);
+  }
+}
+
+/** The header tells the size of the file. */
+void
+CheckBmp(const std::string & path)
+{
+  std::ifstream                file(path, std::ios::binary);
+  std::array<unsigned char, 6> start{};
+  file.read(reinterpret_cast<char *>(start.data()), start.size());
+  const std::uint64_t size =
+    start[2] + (std::uint64_t{ start[3] } << 8) + (std::uint64_t{ start[4] } << 16) + (std::uint64_t{ start[5] } << 24);
+  if (!file || std::filesystem::file_size(path) < size)
+  {
+    FailOfEnd(path);
+  }
 }
 
 /** Reads the last voxel alone: reading regions, these formats do tell if there is nothing. */
@@ -166,6 +229,14 @@ CheckFileIsWhole(const std::string & path, itk::ImageIOBase & imageIO)
   else if (format == "GiplImageIO")
   {
     CheckGipl(path, imageIO);
+  }
+  else if (format == "JPEGImageIO")
+  {
+    CheckJpeg(path);
+  }
+  else if (format == "BMPImageIO")
+  {
+    CheckBmp(path);
   }
   else if (dynamic_cast<itk::StreamingImageIOBase *>(&imageIO) != nullptr && imageIO.CanStreamRead() &&
            imageIO.GetFileType() != itk::IOFileEnum::ASCII)

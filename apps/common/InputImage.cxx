@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "InputImage.h"
 #include "FileIntegrity.h"
+#include "RegularInput.h"
 
 #include "itkImageFileReader.h" // registers the formats
 
@@ -113,6 +114,7 @@ CheckSizes(const std::string & path, const InputImage & input)
 InputImage
 OpenInput(const std::string & path, const std::string & series)
 {
+  CheckIsRegularInput(path);
   std::error_code error;
   const bool      isFolder = std::filesystem::is_directory(path, error);
   InputImage      input = isFolder ? FindSeries(path, series) : FindFile(path);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <streambuf>
 #include <string>
+#include <vector>
 
 /** Where the program tells the user of errors and progress: stderr, even while it is kept from the libraries. */
 std::FILE *
@@ -22,13 +23,27 @@ public:
   LibraryMessages &
   operator=(const LibraryMessages &) = delete;
 
-  /** All that was printed. */
+  /** All that was printed since. */
   std::string
   GetText() const;
 
+  /** Makes the file that holds what is printed. A process that is forked afterwards shares it. */
+  static void
+  Prepare();
+
+  /** All that was printed while any such object existed. */
+  static std::string
+  GetWholeText();
+
 private:
-  std::FILE * const      m_File;
+  const std::size_t      m_Start;
+  const int              m_Errors; // where they went before
   std::streambuf * const m_Output;
 };
+
+/** The warnings among what libraries printed: each once, in one line, without places in source code; of many, the first
+ * few. */
+std::vector<std::string>
+FindLibraryWarnings(const std::string & text);
 
 #endif

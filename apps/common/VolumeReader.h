@@ -42,6 +42,12 @@ public:
     return m_Description;
   }
 
+  /** Puts the spacing and the origin that the user gave, a number for each axis or one for all, in place of the file's;
+   * a warning says so.
+   * \throw std::runtime_error if they are no grid's */
+  void
+  OverrideGrid(const std::string & path, const InputOptions & options, const WarningSink & warn);
+
   /** Whether a part is read without the rest: else the reader keeps the whole image after the first Read(). */
   virtual bool
   ReadsParts() const = 0;

@@ -81,9 +81,14 @@ struct Axes
 /** \brief Subdivides a tile of real values along one, two or three axes: asks for rows, hands over rows of children.
  *
  * x runs along the rows, y from row to row of a plane, z from plane to plane. An axis that is not subdivided is
- * carried: its rows, or positions in a row, are images of their own, and come back as they are many. What lies outside
- * the image is the source's to supply; the kernel treats it as data. The children of a voxel are the same bytes
- * wherever the voxel lies in its tile.
+ * carried: its rows, or positions in a row, are images of their own, and come back as they are many. Any set of axes
+ * does, and a tile has any size along each of them; if rows are many along an axis that is carried, image after image
+ * is computed. What lies outside the image is the source's to supply; the kernel treats it as data. The children of a
+ * voxel are the same bytes wherever the voxel lies in its tile.
+ *
+ * Finite voxels of at most a quarter of the largest value have finite children. Voxels are scaled by 2^-8 on the way,
+ * so what lies below 2^8 times the smallest normal value has fewer digits. Children whose stencil holds no voxel that
+ * is not finite are the same bytes as without it.
  *
  * The real type is float or double. A kernel is used by one thread at a time and allocates in its constructor only.
  * After an exception from a source or a sink it can be used again. */

@@ -21,12 +21,16 @@ namespace Subdivision
  * The label of an element depends on the input and the options alone: not on the box asked for, the tiles or the
  * threads.
  */
-class NonOscillatorySubdivision_EXPORT LabelSubdivider
+class NonOscillatorySubdivision_EXPORT LabelSubdivider : public TileRun
 {
 public:
   /** The restored scheme with tension 0: smooth surfaces, and small bodies keep their volume. No axis is chosen. */
   static Options
   GetDefaultOptions();
+
+  /** \throw std::invalid_argument that names those that are, if a scheme is none for labels */
+  static void
+  CheckScheme(const Scheme & scheme);
 
   /** \param input labels, of any integer type: at least what Subdivider::GetInputRequest() names
    * \param whole the indices of the whole input, beyond which the boundary begins
@@ -35,19 +39,18 @@ public:
    * \throw std::invalid_argument if options, types, sizes or boxes do not fit each other, before anything is computed
    */
   LabelSubdivider(const ConstArrayView & input, const Box & whole, const ArrayView & output, const Options & options);
-  ~LabelSubdivider();
+  ~LabelSubdivider() override;
   LabelSubdivider(const LabelSubdivider &) = delete;
   LabelSubdivider &
   operator=(const LabelSubdivider &) = delete;
 
   std::size_t
-  GetNumberOfTiles() const;
+  GetNumberOfTiles() const override;
 
-  /** From any thread, each tile once, in any order.
-   * \throw std::range_error if a label does not fit the type of the output, or a constant beyond the image is no label;
-   * and whatever the boundary throws. Then the tile is incomplete. */
+  /** \throw std::range_error if a label does not fit the type of the output, or a constant beyond the image is no
+   * label; and whatever the boundary throws */
   void
-  ComputeTile(std::size_t number, TileMonitor & monitor);
+  ComputeTile(std::size_t number, TileMonitor & monitor) override;
 
 private:
   struct Implementation;

@@ -6,6 +6,7 @@
 #include "NonOscillatorySubdivision/Boundary.h"
 #include "NonOscillatorySubdivision/Scheme.h"
 #include "NonOscillatorySubdivision/Target.h"
+#include "NonOscillatorySubdivision/TileRun.h"
 #include "NonOscillatorySubdivision/Tiling.h"
 #include "NonOscillatorySubdivisionExport.h"
 
@@ -31,21 +32,6 @@ struct Options
   const Subdivision::Target * Target = nullptr;
 };
 
-/** \brief Told of what is done, and asked whether to go on, by every thread that computes tiles. */
-class NonOscillatorySubdivision_EXPORT TileMonitor
-{
-public:
-  virtual ~TileMonitor();
-
-  /** Output elements were written. */
-  virtual void
-  Completed(std::size_t elements) = 0;
-
-  /** Asked before a tile; where it says so, the tile is not computed. */
-  virtual bool
-  IsStopped() const = 0;
-};
-
 /** \brief Kernels and buffers that are kept from run to run. Used by one Subdivider at a time. */
 class NonOscillatorySubdivision_EXPORT Workspace
 {
@@ -66,14 +52,18 @@ private:
  * axis is subdivided and the types are the same, elements are copied exactly.
  *
  * Axes may lie in memory in any order and direction. Rows of tiles run along the axis whose elements lie closest in the
- * input, whether it is subdivided or not, unless it is as short as the components of pixels; the output is best laid out
- * in the same order.
+ * input, whether it is subdivided or not, unless it is as short as the components of pixels; the output is best laid
+ * out in the same order.
  *
- * The bytes of an element depend on the input, its order in memory among it, and the options alone: not on the box asked
- * for, the tiles or the threads. */
-class NonOscillatorySubdivision_EXPORT Subdivider
+ * The bytes of an element depend on the input, its order in memory among it, and the options alone: not on the box
+ * asked for, the tiles or the threads. */
+class NonOscillatorySubdivision_EXPORT Subdivider : public TileRun
 {
 public:
+  /** The most memory that a Workspace takes for each thread, in bytes; for who plans memory. Tiles do not grow with the
+   * arrays. */
+  static constexpr std::size_t MostScratchBytesPerThread = std::size_t{ 32 } << 20;
+
   /** \param input what there is of the input: at least what GetInputRequest() names
    * \param whole the indices of the whole input, beyond which the boundary begins
    * \param output where the results go: its box is what is computed
@@ -85,7 +75,7 @@ public:
              const Options &        options,
              unsigned int           threads,
              Workspace &            workspace);
-  ~Subdivider();
+  ~Subdivider() override;
   Subdivider(const Subdivider &) = delete;
   Subdivider &
   operator=(const Subdivider &) = delete;
@@ -100,11 +90,11 @@ public:
   GetWholeOutput(const Box & whole, const Flags & subdivided);
 
   std::size_t
-  GetNumberOfTiles() const;
+  GetNumberOfTiles() const override;
 
-  /** From any thread, each tile once, in any order. May throw what the boundary throws; then the tile is incomplete. */
+  /** May throw what the boundary throws. */
   void
-  ComputeTile(std::size_t number, TileMonitor & monitor);
+  ComputeTile(std::size_t number, TileMonitor & monitor) override;
 
 private:
   struct Implementation;

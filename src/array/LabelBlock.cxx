@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LabelBlock.h"
+#include "array/LabelBlock.h"
 
 #include <algorithm>
 #include <cmath>
@@ -80,23 +80,27 @@ AskBoundary(const Boundary & boundary, const Box & whole, const std::vector<std:
 } // namespace
 
 LabelBlockAxes
-LabelBlockAxes::Choose(const std::vector<bool> & subdivided)
+LabelBlockAxes::Choose(const std::vector<bool> & subdivided, const Box & whole)
 {
   std::vector<int> others;
-  for (std::size_t axis = 1; axis < subdivided.size(); ++axis)
+  int              x = -1;
+  for (int axis = 0; axis < static_cast<int>(whole.size()); ++axis)
   {
-    if (subdivided[axis])
+    if (x < 0 && (whole[axis].Size > 1 || subdivided[axis]))
     {
-      others.push_back(static_cast<int>(axis));
+      x = axis;
+    }
+    else if (subdivided[axis])
+    {
+      others.push_back(axis);
     }
   }
-  LabelBlockAxes axes{ { 0, -1, -1 }, { subdivided[0], false, false } };
   if (others.size() > 2)
   {
-    axes.Number[0] = others.front();
-    axes.IsSubdivided[0] = true;
+    x = others.front();
     others.erase(others.begin());
   }
+  LabelBlockAxes axes{ { std::max(x, 0), -1, -1 }, { subdivided[std::max(x, 0)], false, false } };
   if (!others.empty())
   {
     axes.Number[2] = others.back();

@@ -21,10 +21,10 @@ struct LabelBlockAxes
   std::array<int, 3>  Number;
   std::array<bool, 3> IsSubdivided;
 
-  /** x is the array's first axis, carried if it is not subdivided, unless three other axes are; z is the last other
-   * subdivided axis. */
+  /** x is the first axis that is longer than 1, carried if it is not subdivided, unless three other axes are; z is the
+   * last other subdivided axis. */
   static LabelBlockAxes
-  Choose(const std::vector<bool> & subdivided);
+  Choose(const std::vector<bool> & subdivided, const Box & whole);
 };
 
 /** \brief A block of voxels and its halo, of one image: a position along every axis that is not the block's. */

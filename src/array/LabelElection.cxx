@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LabelElection.h"
+#include "array/LabelElection.h"
 
 #include <limits>
 

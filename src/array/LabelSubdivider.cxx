@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NonOscillatorySubdivision/LabelSubdivider.h"
 
-#include "LabelBlock.h"
-#include "LabelElection.h"
 #include "NonOscillatorySubdivision/Geometry.h"
+#include "array/Arguments.h"
+#include "array/LabelBlock.h"
+#include "array/LabelElection.h"
 
 #include <algorithm>
 #include <limits>
@@ -41,14 +42,26 @@ Fits(const TIn label)
   return static_cast<std::uint64_t>(label) <= static_cast<std::uint64_t>(std::numeric_limits<TOut>::max());
 }
 
+/** \throw std::invalid_argument if anything does not fit */
+const Scheme &
+GetCheckedScheme(const ConstArrayView & input, const Box & whole, const ArrayView & output, const Options & options)
+{
+  CheckArguments(input, whole, output, options);
+  if (!IsInteger(input.Type) || !IsInteger(output.Type))
+  {
+    throw std::invalid_argument("labels are integers, not " + std::string(GetName(input.Type)) + " to " +
+                                GetName(output.Type));
+  }
+  LabelSubdivider::CheckScheme(GetScheme(options));
+  return GetScheme(options);
+}
+
 } // namespace
 
 struct LabelSubdivider::Implementation
 {
   Implementation(const ConstArrayView & input, const Box & whole, const ArrayView & output, const Options & options);
 
-  void
-  CheckArguments() const;
   void
   SplitIntoBlocks();
 
@@ -107,26 +120,10 @@ LabelSubdivider::Implementation::Implementation(const ConstArrayView & input,
   , Whole(whole)
   , Output(output)
   , What(options)
-  , UsedScheme(options.Scheme != nullptr ? *options.Scheme : Schemes[0])
-  , BlockAxes(LabelBlockAxes::Choose(options.SubdividedAxes))
+  , UsedScheme(GetCheckedScheme(input, whole, output, options))
+  , BlockAxes(LabelBlockAxes::Choose(options.SubdividedAxes, whole))
 {
-  this->CheckArguments();
   this->SplitIntoBlocks();
-}
-
-void
-LabelSubdivider::Implementation::CheckArguments() const
-{
-  if (!IsInteger(Input.Type) || !IsInteger(Output.Type))
-  {
-    throw std::invalid_argument("labels are integers, not " + std::string(GetName(Input.Type)) + " to " +
-                                GetName(Output.Type));
-  }
-  if (UsedScheme.Limited == Correction::SecondDifferences || (UsedScheme.IsBounded && !UsedScheme.IsSharpened))
-  {
-    throw std::invalid_argument("labels are subdivided by the scheme restored, bspline or linear, not " +
-                                std::string(UsedScheme.Name));
-  }
 }
 
 void
@@ -397,6 +394,16 @@ LabelSubdivider::GetDefaultOptions()
   options.Scheme = &FindScheme("restored");
   options.Tension = 0;
   return options;
+}
+
+void
+LabelSubdivider::CheckScheme(const Scheme & scheme)
+{
+  if (scheme.Limited == Correction::SecondDifferences || (scheme.IsBounded && !scheme.IsSharpened))
+  {
+    throw std::invalid_argument("labels are subdivided by the scheme restored, bspline or linear, not " +
+                                std::string(scheme.Name));
+  }
 }
 
 LabelSubdivider::LabelSubdivider(const ConstArrayView & input,

@@ -2,6 +2,7 @@
 #include "array/RowWriter.h"
 
 #include "array/Elements.h"
+#include "array/Losses.h"
 
 #include <algorithm>
 
@@ -35,6 +36,7 @@ RowWriter<TReal>::RowWriter(const RunPlan &              plan,
   , m_Axes(axes)
   , m_Tile(tile)
   , m_Monitor(monitor)
+  , m_CountsLosses(monitor.CountsLosses() && IsInteger(plan.OutputType))
   , m_IsLarge(GetBytes(plan) > CacheSize)
   , m_Buffer(buffer)
 {
@@ -102,12 +104,14 @@ RowWriter<TReal>::WriteRow(const std::ptrdiff_t y, const std::ptrdiff_t z, const
   if (isDense && !m_IsLarge && m_Count == children.GetSize())
   {
     children.CopyTo(m_Plan.OutputType, row);
+    this->CountLosses(children, row);
   }
   else
   {
     m_Buffer.resize(std::max(m_Buffer.size(), children.GetSize() * bytes));
     children.CopyTo(m_Plan.OutputType, m_Buffer.data());
     const unsigned char * const wanted = m_Buffer.data() + m_Skipped * bytes;
+    this->CountLosses(children, wanted);
     if (isDense && m_IsLarge)
     {
       m_Streams[static_cast<std::size_t>(z) % Streams].Copy(wanted, m_Count * bytes, row);
@@ -118,6 +122,24 @@ RowWriter<TReal>::WriteRow(const std::ptrdiff_t y, const std::ptrdiff_t z, const
     }
   }
   m_Monitor.Completed(m_Count);
+}
+
+template <typename TReal>
+void
+RowWriter<TReal>::CountLosses(const ChildRow<TReal> & children, const void * const elements)
+{
+  // Values were lost only where an element is a limit of its type, or is 0 and may have been NaN.
+  if (!m_CountsLosses || !MayHaveLost(m_Plan.OutputType, elements, m_Count, !IsInteger(m_Plan.InputType)))
+  {
+    return;
+  }
+  m_Reals.resize(children.GetSize());
+  children.CopyTo(ElementTypeOf<TReal>(), m_Reals.data());
+  const Losses losses = Subdivision::CountLosses(m_Plan.OutputType, m_Reals.data() + m_Skipped, m_Count);
+  if (losses.NotANumber + losses.Clamped > 0)
+  {
+    m_Monitor.Lost(losses.NotANumber, losses.Clamped);
+  }
 }
 
 template class RowWriter<float>;

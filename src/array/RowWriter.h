@@ -52,10 +52,15 @@ private:
   bool
   MoveTo(std::size_t axis, std::ptrdiff_t child, unsigned char *& row) const;
 
+  /** Tells the monitor what the elements of a row could not hold. */
+  void
+  CountLosses(const ChildRow<TReal> & children, const void * elements);
+
   const RunPlan & m_Plan;
   TileAxes        m_Axes;
   const Box &     m_Tile;
   TileMonitor &   m_Monitor;
+  bool            m_CountsLosses;
 
   /** The children of a row that the output has: how many come before them, and how many they are. */
   std::size_t m_Skipped;
@@ -68,6 +73,7 @@ private:
   unsigned char * m_Image{ nullptr };
 
   std::vector<unsigned char> &           m_Buffer;
+  std::vector<TReal>                     m_Reals;
   std::array<NonTemporalWriter, Streams> m_Streams;
 };
 

@@ -9,8 +9,12 @@
 #include "array/RowWriter.h"
 #include "array/RunPlan.h"
 #include "array/ScratchPool.h"
+#include "memory/HugePages.h"
 
 #include <string>
+
+#include <algorithm>
+#include <cstdlib>
 
 namespace itk
 {
@@ -30,9 +34,23 @@ GetTileSize(const TileAxes & axes, const TGetSize & getSize)
   return { sizeOf(axes.X), sizeOf(axes.Y), sizeOf(axes.Z) };
 }
 
-} // namespace
+/** Has large outputs that were not touched yet lie on huge pages. */
+void
+AdviseHugePages(const ArrayView & output)
+{
+  auto *      begin = static_cast<unsigned char *>(output.Data);
+  std::size_t bytes = SizeOf(output.Type);
+  for (const ArrayAxis & axis : output.Axes)
+  {
+    const auto extent =
+      static_cast<std::ptrdiff_t>(axis.Size - 1) * axis.Stride * static_cast<std::ptrdiff_t>(SizeOf(output.Type));
+    begin += std::min<std::ptrdiff_t>(extent, 0);
+    bytes += static_cast<std::size_t>(std::abs(extent));
+  }
+  Subdivision::AdviseHugePages(begin, bytes);
+}
 
-TileMonitor::~TileMonitor() = default;
+} // namespace
 
 struct Workspace::Implementation
 {
@@ -168,6 +186,7 @@ Subdivider::Subdivider(const ConstArrayView & input,
                        Workspace &            workspace)
 {
   CheckArguments(input, whole, output, options);
+  AdviseHugePages(output);
   const RunPlan plan(input, whole, output, options);
   m_Implementation = std::make_unique<Implementation>(plan, options, threads, *workspace.m_Implementation);
 }

@@ -11,6 +11,22 @@ namespace Subdivision
 namespace SUBDIVISION_TARGET
 {
 
+/** The least of three neighbours in one set of values and the greatest in another. */
+template <typename T, typename TValues>
+SUBDIVISION_INLINE void
+FindExtrema(const TValues        leastOf,
+            const TValues        greatestOf,
+            const std::ptrdiff_t end,
+            T * const __restrict least,
+            T * const __restrict greatest)
+{
+  for (std::ptrdiff_t x = 0; x < end; x += LaneCount<T>())
+  {
+    Store(OrderedMin(OrderedMin(leastOf(x, -1), leastOf(x, 0)), leastOf(x, 1)), least + x);
+    Store(OrderedMax(OrderedMax(greatestOf(x, -1), greatestOf(x, 0)), greatestOf(x, 1)), greatest + x);
+  }
+}
+
 /** \brief Stage: the least and the greatest of the 3^d voxels around each voxel, along the subdivided axes. */
 template <typename T, bool VX, bool VY>
 class LocalRange

@@ -4,12 +4,86 @@
 
 #include "kernel/stages/Rows-inl.h"
 
+#include <type_traits>
+
 namespace itk
 {
 namespace Subdivision
 {
 namespace SUBDIVISION_TARGET
 {
+
+/** Keeps both children of voxels across rows: each in a row of its own. */
+template <typename T>
+struct ChildrenInTwoRows
+{
+  T * Lower;
+  T * Upper;
+
+  SUBDIVISION_INLINE void
+  operator()(std::ptrdiff_t x, Vector<T> lower, Vector<T> upper) const
+  {
+    Store(lower, Lower + x);
+    Store(upper, Upper + x);
+  }
+};
+
+/** Stands for second differences where a scheme has none. */
+struct NoSecondDifferences
+{};
+
+/** Both children along one axis of every voxel of a row, and of \c reach voxels on either side: the values under a mask
+ * of six taps, plus the second differences, if any, under theirs. What both children have in common is computed once:
+ * they are even + odd and even - odd, but for the outermost tap of either. */
+template <typename T, typename TValues, typename TSecondDifferences, typename TChildren>
+SUBDIVISION_INLINE void
+FilterRow(const TValues            values,
+          const TSecondDifferences secondDifferences,
+          const PassMasks &        masks,
+          const std::ptrdiff_t     reach,
+          const std::ptrdiff_t     width,
+          const TChildren          children)
+{
+  const auto centre = Broadcast<T>(masks.Values.Centre);
+  const auto pair1 = Broadcast<T>(masks.Values.Pair[0]);
+  const auto pair2 = Broadcast<T>(masks.Values.Pair[1]);
+  const auto odd1 = Broadcast<T>(masks.Values.Odd[0]);
+  const auto odd2 = Broadcast<T>(masks.Values.Odd[1]);
+  const auto outer = Broadcast<T>(masks.Values.Outer);
+  const auto secondCentre = Broadcast<T>(masks.SecondDifferences.Centre);
+  const auto secondPair = Broadcast<T>(masks.SecondDifferences.Pair[0]);
+  const auto secondOdd = Broadcast<T>(masks.SecondDifferences.Odd[0]);
+  const auto secondOuter = Broadcast<T>(masks.SecondDifferences.Outer);
+
+  for (std::ptrdiff_t x = FirstVector<T>(reach); x < width + reach; x += LaneCount<T>())
+  {
+    const auto before2 = KeepInRegister(values(x, -2));
+    const auto before1 = KeepInRegister(values(x, -1));
+    const auto after1 = KeepInRegister(values(x, 1));
+    const auto after2 = KeepInRegister(values(x, 2));
+    auto       even = Mul(pair2, Add(after2, before2));
+    auto       odd = Mul(odd2, Sub(after2, before2));
+    even = MulAdd(pair1, Add(after1, before1), even);
+    odd = MulAdd(odd1, Sub(after1, before1), odd);
+    even = MulAdd(centre, values(x, 0), even);
+    if constexpr (!std::is_same<TSecondDifferences, NoSecondDifferences>::value)
+    {
+      const auto secondBefore = KeepInRegister(secondDifferences(x, -1));
+      const auto secondAfter = KeepInRegister(secondDifferences(x, 1));
+      even = MulAdd(secondPair, Add(secondAfter, secondBefore), even);
+      odd = MulAdd(secondOdd, Sub(secondAfter, secondBefore), odd);
+      even = MulAdd(secondCentre, secondDifferences(x, 0), even);
+    }
+    auto upper = MulAdd(outer, values(x, 3), odd);
+    auto lower = MulSub(outer, values(x, -3), odd);
+    if constexpr (!std::is_same<TSecondDifferences, NoSecondDifferences>::value)
+    {
+      upper = MulAdd(secondOuter, secondDifferences(x, 2), upper);
+      lower = MulAdd(secondOuter, secondDifferences(x, -2), lower);
+    }
+    children(x, Add(even, lower), Add(even, upper));
+  }
+}
 
 /** \brief Stage: masks along y, z and x.
  *

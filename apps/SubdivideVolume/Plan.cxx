@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Plan.h"
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <unistd.h>
+
+namespace
+{
+constexpr std::uint64_t Megabyte = 1000000;
+constexpr std::uint64_t ScratchBytesPerThread = itk::Subdivision::Subdivider::MostScratchBytesPerThread;
+/** Parts of libraries that are loaded when they are first used, stacks, buffers of files. */
+constexpr std::uint64_t SpareBytes = 24 << 20;
+/** Pieces that are handed on while they are still in the caches of the system, and yet no shorter than this many rows
+ * or planes, since each needs what lies around it. */
+constexpr std::uint64_t GoodPieceBytes = 32 << 20;
+constexpr std::uint64_t GoodPieceDepth = 64;
+
+/** What the process occupies now. */
+std::uint64_t
+GetResidentBytes()
+{
+  std::ifstream           statistics("/proc/self/statm");
+  std::uint64_t           size = 0;
+  std::uint64_t           resident = 0;
+  constexpr std::uint64_t guess = 100000000; // where there is no such file
+  return statistics >> size >> resident ? resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : guess;
+}
+
+/** The memory of this machine. */
+std::uint64_t
+GetMachineBytes()
+{
+  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+class Planner
+{
+public:
+  Planner(const LevelChain & chain, const VolumeReader & reader, const VolumeWriter * writer, unsigned int threads)
+    : m_Chain(chain)
+    , m_Reader(reader)
+    , m_Writer(writer)
+    , m_Whole(chain.GetWholeOutput())
+    , m_FixedBytes(GetResidentBytes() + SpareBytes + threads * ScratchBytesPerThread)
+  {}
+
+  bool
+  WritesParts() const
+  {
+    return m_Writer == nullptr || m_Writer->WritesParts();
+  }
+
+  Plan
+  Make(std::uint64_t number, unsigned int buffers) const;
+
+  /** The number of pieces that lets the stages of a run overlap well. */
+  std::uint64_t
+  GetGoodNumber() const;
+
+  /** The least number of pieces that fit a budget, if any does: more pieces never need more memory. */
+  std::uint64_t
+  FindNumber(std::uint64_t budget, unsigned int buffers) const;
+
+private:
+  const LevelChain &   m_Chain;
+  const VolumeReader & m_Reader;
+  const VolumeWriter * m_Writer;
+  const Box            m_Whole;
+  const std::uint64_t  m_FixedBytes;
+};
+
+Plan
+Planner::Make(const std::uint64_t number, const unsigned int buffers) const
+{
+  Plan plan;
+  plan.Pieces = SplitIntoPieces(m_Whole, this->WritesParts() ? number : 1);
+  plan.Buffers = plan.Pieces.size() > 1 ? buffers : 1;
+  const std::uint64_t inputBytes = m_Reader.GetDescription().GetVoxelBytes();
+  const std::uint64_t outputBytes = m_Chain.GetOutput().GetVoxelBytes();
+  std::uint64_t       scratch = 0;
+  for (const Box & piece : plan.Pieces)
+  {
+    const std::uint64_t request = CountElements(m_Chain.GetRequest(piece)) * inputBytes;
+    const std::uint64_t bytes = CountElements(piece) * outputBytes;
+    plan.LargestRequest = std::max(plan.LargestRequest, request);
+    plan.LargestPiece = std::max(plan.LargestPiece, bytes);
+    const std::uint64_t reading = m_Reader.GetScratchBytes(request);
+    const std::uint64_t writing = m_Writer == nullptr ? 0 : m_Writer->GetScratchBytes(bytes);
+    scratch = std::max(scratch, reading + writing + m_Chain.GetScratchBytes(piece));
+  }
+  plan.PeakBytes = m_FixedBytes + scratch + plan.Buffers * (plan.LargestRequest + plan.LargestPiece);
+  return plan;
+}
+
+std::uint64_t
+Planner::GetGoodNumber() const
+{
+  const std::uint64_t rows = GetMaximumNumberOfPieces(m_Whole);
+  const std::uint64_t planes = m_Whole.size() > 1 ? rows / m_Whole[1].Size : 1;
+  const std::uint64_t depth = planes > 1 ? planes : rows;
+  const std::uint64_t bytes = CountElements(m_Whole) * m_Chain.GetOutput().GetVoxelBytes();
+  return std::max<std::uint64_t>(std::min(bytes / GoodPieceBytes, depth / GoodPieceDepth), 1);
+}
+
+std::uint64_t
+Planner::FindNumber(const std::uint64_t budget, const unsigned int buffers) const
+{
+  std::uint64_t tooFew = 0;
+  std::uint64_t enough = this->WritesParts() ? GetMaximumNumberOfPieces(m_Whole) : 1;
+  while (enough - tooFew > 1)
+  {
+    const std::uint64_t middle = std::min(2 * tooFew + 1, tooFew + (enough - tooFew) / 2);
+    if (this->Make(middle, buffers).PeakBytes <= budget)
+    {
+      enough = middle;
+    }
+    else
+    {
+      tooFew = middle;
+    }
+  }
+  return enough;
+}
+} // namespace
+
+Plan
+MakePlan(const Options &      options,
+         const LevelChain &   chain,
+         const VolumeReader & reader,
+         const VolumeWriter * writer,
+         const unsigned int   threads)
+{
+  const Planner planner(chain, reader, writer, threads);
+  if (options.Streams > 0)
+  {
+    return planner.Make(options.Streams, 2);
+  }
+  const std::uint64_t budget = options.Memory > 0 ? options.Memory : GetMachineBytes() / 2;
+  Plan                plan = planner.Make(planner.GetGoodNumber(), 2);
+  for (unsigned int buffers = 2; plan.PeakBytes > budget && buffers > 0; --buffers)
+  {
+    plan = planner.Make(planner.FindNumber(budget, buffers), buffers);
+  }
+  if (plan.PeakBytes > budget && options.Memory > 0)
+  {
+    throw std::runtime_error("--memory cannot be kept: these files need about " +
+                             std::to_string((plan.PeakBytes + Megabyte - 1) / Megabyte) +
+                             (planner.WritesParts() ? " MB" : " MB, since the output cannot be written in pieces"));
+  }
+  return plan;
+}
+
+unsigned int
+GetNumberOfThreads(const Options & options)
+{
+  if (options.Threads > 0)
+  {
+    return options.Threads;
+  }
+  const std::uint64_t processors = std::max(1u, std::thread::hardware_concurrency());
+  // A quarter of the budget at most is scratch memory.
+  const std::uint64_t fitting = options.Memory > 0 ? options.Memory / (4 * ScratchBytesPerThread) : processors;
+  return static_cast<unsigned int>(std::clamp<std::uint64_t>(fitting, 1, processors));
+}

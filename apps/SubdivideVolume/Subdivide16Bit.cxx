@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-#include "Subdivide.hxx"
-
-#include <cstdint>
-
-template SubdivisionReport
-Subdivide<std::uint16_t>(const SubdivisionJob & job);
-template SubdivisionReport
-Subdivide<std::int16_t>(const SubdivisionJob & job);

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef Warnings_h
+#define Warnings_h
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+/** Shows warnings as they come, from any thread, and keeps them for the summary. */
+class Warnings
+{
+public:
+  explicit Warnings(bool isQuiet)
+    : m_IsQuiet(isQuiet)
+  {}
+
+  void
+  Add(const std::string & warning);
+
+  std::vector<std::string>
+  GetAll() const;
+
+private:
+  const bool               m_IsQuiet;
+  mutable std::mutex       m_Mutex;
+  std::vector<std::string> m_All;
+};
+
+#endif

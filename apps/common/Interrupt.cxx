@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Interrupt.h"
+
+InterruptLock
+HoldInterrupts()
+{
+  return InterruptLock(GetRunRecord().Interrupts);
+}
+
+void
+RemoveWhenInterrupted(const InterruptLock &, const std::filesystem::path & folder, const std::filesystem::path & output)
+{
+  RunRecord & record = GetRunRecord();
+  record.TemporaryFolder.Set(folder);
+  record.UnfinishedOutput.Set(output);
+}

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ItkReader.h"
+#include "BoxRuns.h"
+#include "FileIntegrity.h"
+#include "HeaderText.h"
+#include "InputFile.h"
+#include "OneLineMessage.h"
+#include "PixelComponent.h"
+
+#include "itkImageFileReader.h" // registers the formats
+#include "itkMetaDataObject.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+namespace
+{
+using itk::Subdivision::Box;
+using itk::Subdivision::ElementType;
+
+/** The formats' own names for themselves are their classes'. */
+std::string
+GetFormatName(const itk::ImageIOBase & imageIO)
+{
+  const std::string name = imageIO.GetNameOfClass();
+  const std::string suffix = "ImageIO";
+  const auto        end = name.rfind(suffix);
+  const std::string format = end == std::string::npos ? name : name.substr(0, end);
+  return format == "Nifti" ? "NIfTI" : format == "Nrrd" ? "NRRD" : format == "Meta" ? "MetaImage" : format;
+}
+
+VoxelKind
+GetKind(const itk::ImageIOBase & imageIO)
+{
+  switch (imageIO.GetPixelType())
+  {
+    case itk::IOPixelEnum::RGB:
+      return VoxelKind::Rgb;
+    case itk::IOPixelEnum::RGBA:
+      return VoxelKind::Rgba;
+    case itk::IOPixelEnum::COMPLEX:
+      return VoxelKind::Complex;
+    case itk::IOPixelEnum::SYMMETRICSECONDRANKTENSOR:
+    case itk::IOPixelEnum::DIFFUSIONTENSOR3D:
+      return VoxelKind::SymmetricTensor;
+    default:
+      return imageIO.GetNumberOfComponents() == 1 ? VoxelKind::Scalar : VoxelKind::Vector;
+  }
+}
+
+std::map<std::string, std::string>
+GetMetadata(const itk::MetaDataDictionary & dictionary)
+{
+  std::map<std::string, std::string> metadata;
+  for (const std::string & key : dictionary.GetKeys())
+  {
+    std::string value;
+    if (itk::ExposeMetaData<std::string>(dictionary, key, value))
+    {
+      metadata[key] = value;
+    }
+  }
+  return metadata;
+}
+
+ImageDescription
+Describe(const std::string & path, const itk::ImageIOBase & imageIO)
+{
+  ImageDescription description;
+  for (unsigned int axis = 0; axis < imageIO.GetNumberOfDimensions(); ++axis)
+  {
+    description.Grid.Size.push_back(imageIO.GetDimensions(axis));
+    description.Grid.Spacing.push_back(imageIO.GetSpacing(axis));
+    description.Grid.Origin.push_back(imageIO.GetOrigin(axis));
+    description.Grid.Directions.push_back(imageIO.GetDirection(axis));
+  }
+  description.Component = WithComponentType(
+    imageIO.GetComponentType(), [](auto value) { return itk::Subdivision::ElementTypeOf<decltype(value)>(); });
+  description.NumberOfComponents = imageIO.GetNumberOfComponents();
+  description.Kind = GetKind(imageIO);
+  description.Format = GetFormatName(imageIO);
+  description.Metadata = GetMetadata(imageIO.GetMetaDataDictionary());
+  const auto intent = description.Metadata.find("intent_code");
+  description.IsLabelMap =
+    description.Format == "NIfTI" && intent != description.Metadata.end() && intent->second == "1002";
+  CheckDescription(path, description);
+  return description;
+}
+
+/** Whether ITK's reader of the format reads a region right, without the rest. */
+bool
+ReadsRegions(const itk::ImageIOBase & imageIO)
+{
+  // It mixes up the components of a region's vectors.
+  const bool isVectorNifti =
+    std::string(imageIO.GetNameOfClass()) == "NiftiImageIO" && imageIO.GetNumberOfComponents() > 1;
+  return const_cast<itk::ImageIOBase &>(imageIO).CanStreamRead() && !isVectorNifti;
+}
+
+/** A reader for the format that a name's ending says; ITK itself knows some endings in small letters only. */
+itk::ImageIOBase::Pointer
+FindByEnding(const std::string & path)
+{
+  const std::string ending = ToLower(std::filesystem::path(path).extension().string());
+  for (const auto & object : itk::ObjectFactoryBase::CreateAllInstance("itkImageIOBase"))
+  {
+    auto * const imageIO = dynamic_cast<itk::ImageIOBase *>(object.GetPointer());
+    if (imageIO != nullptr)
+    {
+      for (const auto * const known :
+           { &imageIO->GetSupportedReadExtensions(), &imageIO->GetSupportedWriteExtensions() })
+      {
+        if (std::find(known->begin(), known->end(), ending) != known->end())
+        {
+          return imageIO;
+        }
+      }
+    }
+  }
+  return nullptr;
+}
+
+bool
+IsWhole(const std::vector<std::uint64_t> & size, const Box & box)
+{
+  for (std::size_t axis = 0; axis < size.size(); ++axis)
+  {
+    if (box[axis].First != 0 || box[axis].Size != size[axis])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+} // namespace
+
+std::string
+GetReason(const std::exception & error)
+{
+  const auto * const itkError = dynamic_cast<const itk::ExceptionObject *>(&error);
+  return MakeOneLine(itkError != nullptr ? itkError->GetDescription() : error.what());
+}
+
+ItkReader::ItkReader(const std::string & path)
+  : m_Path(path)
+{
+  InputFile{ path }; // says why it cannot be opened, and keeps pipes from being waited for
+  m_ImageIO = itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::IOFileModeEnum::ReadMode);
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (m_ImageIO.IsNull() && ending != ToLower(ending))
+  {
+    m_ImageIO = FindByEnding(path);
+  }
+  if (m_ImageIO.IsNull())
+  {
+    FailToRead(path, "it is in none of the known image formats");
+  }
+  try
+  {
+    m_ImageIO->SetFileName(path);
+    m_ImageIO->ReadImageInformation();
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    FailToRead(path, GetReason(error));
+  }
+  m_Description = Describe(path, *m_ImageIO);
+  m_ReadsParts = ReadsRegions(*m_ImageIO);
+  CheckFileIsWhole(path, *m_ImageIO);
+}
+
+bool
+ItkReader::ReadsParts() const
+{
+  return m_ReadsParts;
+}
+
+std::uint64_t
+ItkReader::GetScratchBytes(std::uint64_t partBytes) const
+{
+  return partBytes; // several of the formats' readers read into an array of their own
+}
+
+void
+ItkReader::ReadRegion(const Box & box, void * voxels)
+{
+  itk::ImageIORegion region(static_cast<unsigned int>(box.size()));
+  for (unsigned int axis = 0; axis < box.size(); ++axis)
+  {
+    region.SetIndex(axis, box[axis].First);
+    region.SetSize(axis, box[axis].Size);
+  }
+  try
+  {
+    m_ImageIO->SetIORegion(region);
+    m_ImageIO->Read(voxels);
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    FailToRead(m_Path, GetReason(error));
+  }
+}
+
+void
+ItkReader::Read(const Box & box, void * voxels)
+{
+  const std::vector<std::uint64_t> & size = m_Description.Grid.Size;
+  if (m_ReadsParts || (IsWhole(size, box) && m_Whole.empty()))
+  {
+    this->ReadRegion(box, voxels);
+    return;
+  }
+  const std::uint64_t voxelBytes = m_Description.GetVoxelBytes();
+  if (m_Whole.empty())
+  {
+    m_Whole.resize(static_cast<std::size_t>(m_Description.GetNumberOfVoxels() * voxelBytes));
+    Box whole;
+    for (const std::uint64_t count : size)
+    {
+      whole.push_back({ 0, count });
+    }
+    this->ReadRegion(whole, m_Whole.data());
+  }
+  char * bytes = static_cast<char *>(voxels);
+  ForEachRun(size, box, [&](std::uint64_t first, std::uint64_t count) {
+    std::memcpy(bytes, m_Whole.data() + first * voxelBytes, count * voxelBytes);
+    bytes += count * voxelBytes;
+  });
+}

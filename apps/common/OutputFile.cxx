@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "OutputFile.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+namespace
+{
+[[noreturn]] void
+Fail(const std::string & path, const std::string & reason)
+{
+  throw std::runtime_error("cannot write " + path + ": " + reason);
+}
+
+std::string
+InMegabytes(std::uint64_t bytes)
+{
+  return std::to_string(bytes / 1000000) + " MB";
+}
+} // namespace
+
+OutputFile::OutputFile(const std::string & path, const std::string & meant)
+  : m_Meant(meant)
+  , m_Descriptor(open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666))
+{
+  if (m_Descriptor < 0)
+  {
+    Fail(meant, std::strerror(errno));
+  }
+}
+
+OutputFile::~OutputFile() { close(m_Descriptor); }
+
+void
+OutputFile::Reserve(std::uint64_t size)
+{
+  // Where the disk is far too small, blocks are not even tried for: they take a while.
+  struct statvfs disk = {};
+  if (fstatvfs(m_Descriptor, &disk) == 0 && size / disk.f_frsize > disk.f_bavail)
+  {
+    Fail(m_Meant,
+         "it needs " + InMegabytes(size) + ", and the disk has " +
+           InMegabytes(std::uint64_t{ disk.f_bavail } * disk.f_frsize) + " left");
+  }
+#ifdef __linux__
+  // Not every file system can; then the disk may run full while the voxels are written.
+  if (size > 0 && fallocate(m_Descriptor, 0, 0, static_cast<off_t>(size)) == 0)
+  {
+    return;
+  }
+  if (size > 0 && (errno == ENOSPC || errno == EDQUOT || errno == EFBIG))
+  {
+    Fail(m_Meant, std::strerror(errno));
+  }
+#endif
+  if (ftruncate(m_Descriptor, static_cast<off_t>(size)) != 0)
+  {
+    Fail(m_Meant, std::strerror(errno));
+  }
+}
+
+void
+OutputFile::WriteAt(std::uint64_t offset, const void * bytes, std::uint64_t count)
+{
+  while (count > 0)
+  {
+    const auto written =
+      pwrite(m_Descriptor, bytes, std::min<std::uint64_t>(count, 1 << 30), static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR)
+    {
+      continue;
+    }
+    if (written <= 0)
+    {
+      Fail(m_Meant, std::strerror(written < 0 ? errno : ENOSPC));
+    }
+    bytes = static_cast<const char *>(bytes) + written;
+    offset += static_cast<std::uint64_t>(written);
+    count -= static_cast<std::uint64_t>(written);
+  }
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RunRecord_h
+#define RunRecord_h
+
+#include <atomic>
+#include <climits>
+#include <cstdint>
+#include <string>
+
+#include <pthread.h>
+
+/** A lock that two processes share, and that outlives the one that held it. */
+class SharedMutex
+{
+public:
+  SharedMutex();
+
+  void
+  lock();
+
+  void
+  unlock();
+
+  /** \return whether it could be locked within some seconds */
+  bool
+  LockWithin(int seconds);
+
+private:
+  bool
+  Take(int result);
+
+  pthread_mutex_t m_Mutex;
+};
+
+/** A text that a process writes and another one reads once the first has ended. */
+class SharedText
+{
+public:
+  /** What is too long is cut. */
+  void
+  Set(const std::string & text);
+
+  std::string
+  Get() const;
+
+private:
+  char m_Text[PATH_MAX + 64] = {};
+};
+
+/** What the process that runs tells the one that watches it, in memory that they share. */
+struct RunRecord
+{
+  SharedMutex                Interrupts;        // held while no interrupt may come
+  SharedText                 TemporaryFolder;   // to be removed whatever happens
+  SharedText                 UnfinishedOutput;  // that is written there
+  SharedText                 Task;              // how a message starts if the run dies: "cannot read a.dcm"
+  std::atomic<std::uint64_t> Steps{ 0 };        // that have been made in opening
+  std::atomic<int>           OpeningDepth{ 0 }; // of WatchedOpening
+  std::atomic<bool>          HasEnded{ false }; // on purpose
+};
+
+/** The record of this process: shared with its watcher, if it has one. */
+RunRecord &
+GetRunRecord();
+
+/** Starts with an empty record, to be shared with the processes that are forked afterwards. */
+void
+ResetRunRecord();
+
+#endif

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TemporaryFolder.h"
+#include "InputFile.h"
+#include "Interrupt.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+[[noreturn]] void
+Fail(const fs::path & path, int error)
+{
+  throw std::runtime_error("cannot write " + path.string() + ": " + std::strerror(error));
+}
+
+/** The file that a name leads to, whether it exists or not: a symbolic link is to stay one. */
+fs::path
+Resolve(fs::path output)
+{
+  std::error_code error;
+  constexpr int   longestChain = 40;
+  for (int i = 0; i < longestChain && fs::is_symlink(output, error); ++i)
+  {
+    output = output.parent_path() / fs::read_symlink(output, error);
+  }
+  const fs::path folder = fs::canonical(fs::absolute(output).parent_path(), error);
+  return error ? fs::absolute(output) : folder / output.filename();
+}
+
+/** Copies over a file that exists, without making it anew. The new size is taken first, while the old bytes are all
+ * there. */
+void
+CopyOver(const fs::path & from, const fs::path & to)
+{
+  const InputFile     source(from.string());
+  const int           descriptor = open(to.c_str(), O_WRONLY | O_CLOEXEC);
+  const std::uint64_t oldSize = descriptor < 0 ? 0 : fs::file_size(to);
+  std::vector<char>   bytes(1 << 20);
+  bool                isDone = descriptor >= 0;
+  if (isDone && source.GetSize() > oldSize)
+  {
+    errno = posix_fallocate(descriptor, 0, static_cast<off_t>(source.GetSize()));
+    isDone = errno == 0;
+    if (!isDone)
+    {
+      static_cast<void>(ftruncate(descriptor, static_cast<off_t>(oldSize)) == 0);
+    }
+  }
+  for (std::uint64_t done = 0; isDone && done < source.GetSize();)
+  {
+    const auto count = std::min<std::uint64_t>(bytes.size(), source.GetSize() - done);
+    source.ReadAt(done, bytes.data(), count);
+    isDone = pwrite(descriptor, bytes.data(), count, static_cast<off_t>(done)) == static_cast<ssize_t>(count);
+    done += count;
+  }
+  isDone = isDone && ftruncate(descriptor, static_cast<off_t>(source.GetSize())) == 0;
+  const int error = errno;
+  close(descriptor);
+  if (!isDone)
+  {
+    Fail(to, error);
+  }
+}
+
+/** Errors of writing may show up as late as here. */
+void
+BringToDisk(const fs::path & file, const fs::path & output)
+{
+  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0)
+  {
+    Fail(output, errno);
+  }
+  const int result = fsync(descriptor);
+  const int error = errno;
+  close(descriptor);
+  if (result != 0 && error != EINVAL)
+  {
+    Fail(output, error);
+  }
+}
+/** Gives a file the permissions of the one that it is to replace, if there is one. */
+void
+KeepPermissions(const fs::path & replaced, const fs::path & file)
+{
+  std::error_code error;
+  const auto      status = fs::status(replaced, error);
+  if (!error && fs::exists(status))
+  {
+    fs::permissions(file, status.permissions(), error);
+  }
+}
+} // namespace
+
+TemporaryFolder::TemporaryFolder(const fs::path & output, const WarningSink & warn)
+  : m_Output(Resolve(output))
+{
+  std::error_code error;
+  if (fs::is_directory(m_Output, error))
+  {
+    Fail(output, EISDIR);
+  }
+  if (fs::exists(m_Output, error) && !fs::is_regular_file(m_Output, error))
+  {
+    throw std::runtime_error("cannot write " + output.string() + ": it is not a regular file");
+  }
+  if (fs::exists(m_Output, error) && access(m_Output.c_str(), W_OK) != 0)
+  {
+    Fail(output, errno);
+  }
+  m_IsInPlace = !this->Make(m_Output.parent_path());
+  if (!m_IsInPlace)
+  {
+    return;
+  }
+  const int reason = errno;
+  if (!fs::exists(m_Output, error) || (reason != EACCES && reason != EPERM && reason != EROFS) ||
+      !this->Make(fs::temp_directory_path()))
+  {
+    Fail(output, reason);
+  }
+  warn("the folder of " + output.string() +
+       " cannot be written, but the file can: it is overwritten in place, and is not whole until that is done");
+}
+
+bool
+TemporaryFolder::Make(const fs::path & folder)
+{
+  // Short, since a file's name may be as long as the file system allows.
+  std::string pattern = (folder / ".partial-XXXXXX").string();
+  const auto  lock = HoldInterrupts();
+  if (mkdtemp(pattern.data()) == nullptr)
+  {
+    return false;
+  }
+  m_Folder = pattern;
+  RemoveWhenInterrupted(lock, m_Folder, m_Output);
+  return true;
+}
+
+TemporaryFolder::~TemporaryFolder()
+{
+  if (!m_Folder.empty())
+  {
+    this->Remove(HoldInterrupts());
+  }
+}
+
+void
+TemporaryFolder::Remove(const InterruptLock & lock)
+{
+  std::error_code error;
+  fs::remove_all(m_Folder, error);
+  RemoveWhenInterrupted(lock, {}, {});
+  m_Folder.clear();
+}
+
+fs::path
+TemporaryFolder::GetFileName() const
+{
+  return m_Folder / m_Output.filename();
+}
+
+void
+TemporaryFolder::CheckThatAllWasWritten() const
+{
+  const fs::path          probe = m_Folder / "probe";
+  const std::vector<char> bytes(1 << 16, 1);
+  const int               descriptor = open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  errno = ENOSPC;
+  const auto written = descriptor < 0 ? -1 : write(descriptor, bytes.data(), bytes.size());
+  const int  error = errno;
+  close(descriptor);
+  fs::remove(probe);
+  if (written != static_cast<ssize_t>(bytes.size()))
+  {
+    throw std::runtime_error(std::strerror(error));
+  }
+  rlimit limit = {};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  for (const fs::directory_entry & entry : fs::directory_iterator(m_Folder))
+  {
+    if (limit.rlim_cur != RLIM_INFINITY && entry.file_size() >= limit.rlim_cur)
+    {
+      throw std::runtime_error(std::strerror(EFBIG));
+    }
+  }
+}
+
+void
+TemporaryFolder::Clear()
+{
+  for (const fs::directory_entry & entry : fs::directory_iterator(m_Folder))
+  {
+    fs::remove_all(entry.path());
+  }
+}
+
+void
+TemporaryFolder::AllowReplacing(const std::string & name)
+{
+  m_Replaceable.insert(name);
+}
+
+void
+TemporaryFolder::Commit()
+{
+  std::vector<fs::path> names;
+  for (const fs::directory_entry & entry : fs::directory_iterator(m_Folder))
+  {
+    names.push_back(entry.path().filename());
+  }
+  // The named output goes last: it must not refer to files that are not there yet.
+  std::stable_partition(names.begin(), names.end(), [this](const auto & name) { return name != m_Output.filename(); });
+
+  const fs::path target = m_Output.parent_path();
+  for (const fs::path & name : names)
+  {
+    BringToDisk(m_Folder / name, m_Output);
+    if (name != m_Output.filename() && m_Replaceable.count(name.string()) == 0 && fs::exists(target / name))
+    {
+      throw std::runtime_error("cannot write " + m_Output.string() + ": its data would replace the file " +
+                               (target / name).string());
+    }
+    KeepPermissions(target / name, m_Folder / name);
+  }
+  const auto lock = HoldInterrupts();
+  for (const fs::path & name : names)
+  {
+    if (m_IsInPlace)
+    {
+      CopyOver(m_Folder / name, target / name);
+    }
+    else
+    {
+      fs::rename(m_Folder / name, target / name);
+    }
+  }
+  this->Remove(lock);
+}

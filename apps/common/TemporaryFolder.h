@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef TemporaryFolder_h
+#define TemporaryFolder_h
+
+#include "ImageDescription.h"
+#include "Interrupt.h"
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+/** A hidden folder beside the output in which the output is written under its own name. The formats that write several
+ * files name one in the other; these names are right from the start. When all is written, the files are renamed into
+ * place. Otherwise the folder is removed, also when the program is interrupted: a half-written file never bears the
+ * output's name. */
+class TemporaryFolder
+{
+public:
+  /** Where the output's folder cannot be written but the output exists and can, the temporary folder is among the
+   * system's, and Commit() copies over the output; a warning says so.
+   * \throw std::runtime_error if the output cannot be written either */
+  explicit TemporaryFolder(const std::filesystem::path & output, const WarningSink & warn = [](const std::string &) {});
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder &) = delete;
+  TemporaryFolder &
+  operator=(const TemporaryFolder &) = delete;
+
+  /** Where the output is to be written. */
+  std::filesystem::path
+  GetFileName() const;
+
+  /** The output's name, symbolic links followed. */
+  const std::filesystem::path &
+  GetOutput() const
+  {
+    return m_Output;
+  }
+
+  /** Some formats' writers do not tell of a write that failed. It failed because the disk is full, and then there is no
+   * room for another file either, or because a file reached its size limit.
+   * \throw std::runtime_error */
+  void
+  CheckThatAllWasWritten() const;
+
+  /** Removes all files. */
+  void
+  Clear();
+
+  /** Lets Commit() replace a file beside the output. Without it, no file but the output is ever replaced. */
+  void
+  AllowReplacing(const std::string & name);
+
+  /** Brings all files to the disk and renames them, the named output last.
+   * \throw std::runtime_error if the disk is full or another file stands in the way */
+  void
+  Commit();
+
+private:
+  /** Returns false, with the reason in errno, if it cannot be made there. */
+  bool
+  Make(const std::filesystem::path & folder);
+  void
+  Remove(const InterruptLock & lock);
+
+  std::filesystem::path m_Output;
+  std::filesystem::path m_Folder;
+  bool                  m_IsInPlace = false;
+  std::set<std::string> m_Replaceable;
+};
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef TiffStack_h
+#define TiffStack_h
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/** How the planes of a TIFF file make a stack, as ImageJ, OME or the tags say. */
+struct TiffStack
+{
+  std::uint64_t                        Slices = 1;
+  std::uint64_t                        Channels = 1;
+  std::uint64_t                        Frames = 1;
+  std::vector<std::uint64_t>           Planes; // where plane (frame * Slices + slice) * Channels + channel lies
+  std::array<std::optional<double>, 3> Spacing;
+  bool                                 IsInMillimetres = false; // else the file does not say what the unit is
+  bool                                 IsImageJ = false;
+  bool                                 HoldsInt16 = false;     // ImageJ's calibration turns uint16 into int16
+  bool                                 HasCalibration = false; // another one, of the values
+};
+
+/** Millimetres in a unit of length, if it is known. */
+std::optional<double>
+GetMillimetres(const std::string & unit);
+
+/** What a text says of the stack if it is ImageJ's.
+ * \throw std::runtime_error with a reason alone, here and below */
+std::optional<TiffStack>
+ParseImageJ(const std::string & text);
+
+/** What a text says of the stack if it is OME's XML. */
+std::optional<TiffStack>
+ParseOme(const std::string & text, std::uint64_t pages);
+
+#endif

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// The formats that ITK reads and writes.
+#include "TestFolder.h"
+#include "VolumeTestImages.h"
+
+#include <gtest/gtest.h>
+
+using namespace VolumeTest;
+using itk::Subdivision::ElementType;
+
+namespace
+{
+ImageDescription
+MakeUpright(const std::vector<std::uint64_t> & size, ElementType type)
+{
+  ImageDescription description = MakeDescription(size, type);
+  for (std::size_t axis = 0; axis < size.size(); ++axis)
+  {
+    description.Grid.Directions[axis].assign(size.size(), 0.0);
+    description.Grid.Directions[axis][axis] = 1.0;
+  }
+  return description;
+}
+
+/** Writes and reads an image; returns the warnings. */
+std::string
+WriteAndRead(const std::string & path, const ImageDescription & description)
+{
+  std::string warnings;
+  const auto  voxels = MakeVoxels(description);
+  WriteVolume(path, description, voxels, {}, [&](const std::string & text) { warnings += text + "\n"; });
+  EXPECT_EQ(ReadAll(path), voxels) << path;
+  return warnings;
+}
+} // namespace
+
+class ItkFormats : public testing::TestWithParam<const char *>
+{};
+
+TEST_P(ItkFormats, VoxelsComeBackInCapitalsOrNot)
+{
+  const TestFolder folder;
+  WriteAndRead(folder / (std::string("image") + GetParam()), MakeUpright({ 9, 7, 5 }, ElementType::Int16));
+}
+
+TEST_P(ItkFormats, PartsAreThoseOfTheWhole)
+{
+  const TestFolder  folder;
+  const std::string path = folder / (std::string("image") + GetParam());
+  const auto        description = MakeUpright({ 9, 7, 5 }, ElementType::Int16);
+  const auto        voxels = MakeVoxels(description);
+  WriteVolume(path, description, voxels);
+  const auto reader = Open(path);
+  const auto plane = static_cast<std::ptrdiff_t>(9 * 7 * 2);
+  EXPECT_EQ(ReadVoxels(*reader, { { 0, 9 }, { 0, 7 }, { 1, 2 } }),
+            std::vector<char>(voxels.begin() + plane, voxels.begin() + 3 * plane));
+  EXPECT_EQ(ReadVoxels(*reader, { { 2, 3 }, { 4, 1 }, { 3, 1 } }),
+            std::vector<char>(voxels.begin() + 3 * plane + 4 * 18 + 4, voxels.begin() + 3 * plane + 4 * 18 + 10));
+}
+
+INSTANTIATE_TEST_SUITE_P(Endings,
+                         ItkFormats,
+                         testing::Values(".nii",
+                                         ".nii.gz",
+                                         ".NII",
+                                         ".NII.GZ",
+                                         ".vtk",
+                                         ".VTK",
+                                         ".gipl",
+                                         ".GIPL",
+                                         ".gipl.gz",
+                                         ".h5",
+                                         ".H5",
+                                         ".mrc",
+                                         ".MRC",
+                                         ".hdr"));
+
+TEST(ItkFormatsLimits, WhatIsLostIsSaid)
+{
+  const TestFolder folder;
+  const auto       oblique = MakeDescription({ 9, 7, 5 }, ElementType::Int16);
+  EXPECT_EQ(WriteAndRead(folder / "a.nii", oblique), "");
+  EXPECT_EQ(WriteAndRead(folder / "a.nii.gz", oblique), "");
+  EXPECT_EQ(WriteAndRead(folder / "a.h5", oblique), "");
+  EXPECT_NE(WriteAndRead(folder / "a.vtk", oblique).find("cannot hold the directions of the axes"), std::string::npos);
+  EXPECT_NE(WriteAndRead(folder / "a.gipl", oblique).find("directions"), std::string::npos);
+  const auto upright = MakeUpright({ 9, 7, 5 }, ElementType::Int16);
+  EXPECT_EQ(WriteAndRead(folder / "a.vtk", upright), "");
+  auto micrometres = upright;
+  micrometres.Metadata["DistanceUnits"] = "um";
+  EXPECT_NE(WriteAndRead(folder / "a.nii", micrometres).find("the unit um"), std::string::npos);
+}
+
+TEST(ItkFormatsLimits, WhatCannotBeHeldIsRefusedBeforeAnythingIsComputed)
+{
+  const TestFolder folder;
+  const auto       getError = [&](const std::string & name, const ImageDescription & description) {
+    const auto writer = CreateVolume(folder / name, {}, [](const std::string &) {});
+    return GetError([&] { writer->Begin(description); });
+  };
+  EXPECT_NE(getError("a.nii", MakeUpright({ 32768, 2, 2 }, ElementType::UInt8)).find("up to 32767"), std::string::npos);
+  EXPECT_EQ(getError("a.nii", MakeUpright({ 32767, 2, 2 }, ElementType::UInt8)), "");
+  EXPECT_NE(getError("a.nii.gz", MakeUpright({ 2, 2, 40000 }, ElementType::UInt8)).find("up to 32767"),
+            std::string::npos);
+  EXPECT_NE(getError("a.gipl", MakeUpright({ 65536, 2, 2 }, ElementType::UInt8)).find("up to 65535"),
+            std::string::npos);
+  EXPECT_NE(getError("a.png", MakeUpright({ 9, 7, 5 }, ElementType::UInt8)), "");
+  EXPECT_NE(getError("a.png", MakeUpright({ 9, 7 }, ElementType::Float)), "");
+  EXPECT_NE(getError("a.vtk", MakeUpright({ 9, 7, 5, 3 }, ElementType::UInt8)), "");
+  EXPECT_TRUE(folder.GetFiles().empty());
+}
+
+TEST(ItkFormatsLimits, AnUnknownEndingListsTheKnownOnes)
+{
+  const std::string error = GetError([] { CreateVolume("image.xyz", {}, [](const std::string &) {}); });
+  EXPECT_NE(error.find(".nrrd"), std::string::npos);
+  EXPECT_NE(error.find(".nii.gz"), std::string::npos);
+}
+
+// ITK mixes up the components of a part of a NIfTI's vectors.
+TEST(ItkFormatsLimits, VectorsOfNiftiAreReadRight)
+{
+  const TestFolder folder;
+  auto             description = MakeUpright({ 9, 7, 5 }, ElementType::Float);
+  description.NumberOfComponents = 3;
+  description.Kind = VoxelKind::Vector;
+  const auto voxels = MakeVoxels(description);
+  WriteVolume(folder / "a.nii", description, voxels);
+  const auto reader = Open(folder / "a.nii");
+  const auto plane = static_cast<std::ptrdiff_t>(9 * 7 * 12);
+  EXPECT_EQ(ReadVoxels(*reader, { { 0, 9 }, { 0, 7 }, { 2, 1 } }),
+            std::vector<char>(voxels.begin() + 2 * plane, voxels.begin() + 3 * plane));
+}
+
+TEST(ItkFormatsLimits, ATruncatedFileIsNoticed)
+{
+  const TestFolder folder;
+  const auto       description = MakeUpright({ 9, 7, 5 }, ElementType::Int16);
+  for (const std::string name : { "a.nii", "a.nii.gz", "a.vtk", "a.gipl", "a.mrc", "a.h5" })
+  {
+    WriteVolume(folder / name, description, MakeVoxels(description));
+    const std::string content = folder.ReadFile(name);
+    for (const std::size_t lost : { std::size_t{ 1 }, std::size_t{ 200 }, content.size() / 2, content.size() - 10 })
+    {
+      folder.WriteFile(name, content.substr(0, content.size() - lost));
+      EXPECT_NE(GetError([&] { ReadAll(folder / name); }), "") << name << " less " << lost << " bytes";
+    }
+  }
+}

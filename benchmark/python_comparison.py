@@ -160,7 +160,7 @@ def main():
     parser.add_argument("--size", type=int, default=128, help="voxels along a side of the volume that is timed")
     parser.add_argument("--dtype", default="uint16")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
-    parser.add_argument("--repetitions", type=int, default=5)
+    parser.add_argument("--repetitions", type=int, default=5, help="the best counts")
     parser.add_argument("--ct", help="a volume that SimpleITK reads; its middle, 128 voxels a side, is used")
     options = parser.parse_args()
 

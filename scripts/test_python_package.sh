@@ -50,6 +50,7 @@ if ! cmp --silent "$folder/requirements.txt" "$folder/installed.txt"; then
   cp "$folder/requirements.txt" "$folder/installed.txt"
 fi
 
+export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
 if command -v ccache > /dev/null; then
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache
 fi

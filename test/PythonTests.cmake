@@ -64,4 +64,5 @@ add_test(
 set_tests_properties(python_package_test PROPERTIES
   SKIP_REGULAR_EXPRESSION "skipped, for want of"
   PROCESSORS 2
+  TIMEOUT 2400
 )

@@ -74,26 +74,18 @@ def subdivide(
     ValueError, TypeError
         If there is no image, an argument does not fit it, or the target exists.
     """
-    image = _zarr_image.open_image(source, labels)
-    place = _Place(image, target)
-    wanted = _Wanted(
-        scheme=scheme if scheme is not None else "restored" if labels else "nonoscillatory",
-        tension=float(tension) if tension is not None else 0.0 if labels else 2.0,
+    run = _Run.prepare(
+        source,
+        target,
+        scheme=scheme,
+        tension=tension,
         boundary=boundary,
-        axes=image.axes_to_subdivide(axes),
+        axes=axes,
         levels=levels,
-        is_labels=labels,
+        chunks=chunks,
+        labels=labels,
     )
-    _check(image, wanted, chunks)
-    job = _prepare(image, place, wanted, chunks)
-    total = prod(job.grid())
-    finished = place.progress.finished()
-    report(len(finished), total)
-    missing = (block for block in range(total) if block not in finished)
-    for done in _compute_blocks(client, job, missing, str(place.progress.folder)):
-        report(len(finished) + done, total)
-    place.describe(wanted)
-    place.progress.end()
+    run.compute(client, report)
 
 
 @dataclass(frozen=True)
@@ -191,23 +183,64 @@ def _prepare(image: _zarr_image.Image, place: _Place, wanted: _Wanted, chunks: S
     return job
 
 
-def _compute_blocks(
-    client: distributed.Client, job: Job, blocks: Iterable[int], progress_folder: str
-) -> Iterable[int]:
-    """Yields how many blocks are done. Those of a worker that is lost are given to another one by the scheduler."""
-    remaining = iter(blocks)
+@dataclass(frozen=True)
+class _Run:
+    place: _Place
+    wanted: _Wanted
+    job: Job
 
-    def submit(block: int) -> distributed.Future:
-        return client.submit(compute_block, job, block, progress_folder, pure=False, retries=2)
+    @classmethod
+    def prepare(
+        cls,
+        source: str,
+        target: str | None,
+        *,
+        scheme: str | None,
+        tension: float | None,
+        boundary: Boundary,
+        axes: Sequence[str] | None,
+        levels: int,
+        chunks: Sequence[int] | None,
+        labels: bool,
+    ) -> _Run:
+        """Finds what is wrong, and creates the output."""
+        image = _zarr_image.open_image(source, labels)
+        place = _Place(image, target)
+        wanted = _Wanted(
+            scheme=scheme if scheme is not None else "restored" if labels else "nonoscillatory",
+            tension=float(tension) if tension is not None else 0.0 if labels else 2.0,
+            boundary=boundary,
+            axes=image.axes_to_subdivide(axes),
+            levels=levels,
+            is_labels=labels,
+        )
+        _check(image, wanted, chunks)
+        return cls(place, wanted, _prepare(image, place, wanted, chunks))
 
-    # A few blocks for each thread are enough to keep it busy; a task for every block might be too many.
-    window = 3 * max(1, sum(client.nthreads().values()))
-    running = distributed.as_completed([submit(block) for block in islice(remaining, window)])
-    for done, future in enumerate(running, start=1):
-        future.result()
-        for block in islice(remaining, 1):
-            running.add(submit(block))
-        yield done
+    def compute(self, client: distributed.Client, report: Callable[[int, int], None]) -> None:
+        total = prod(self.job.grid())
+        finished = self.place.progress.finished()
+        report(len(finished), total)
+        for done in self._compute_blocks(client, (block for block in range(total) if block not in finished)):
+            report(len(finished) + done, total)
+        self.place.describe(self.wanted)
+        self.place.progress.end()
+
+    def _compute_blocks(self, client: distributed.Client, blocks: Iterable[int]) -> Iterable[int]:
+        """Yields how many blocks are done. Those of a worker that is lost are given to another one by the scheduler."""
+        remaining = iter(blocks)
+
+        def submit(block: int) -> distributed.Future:
+            return client.submit(compute_block, self.job, block, str(self.place.progress.folder), pure=False, retries=2)
+
+        # A few blocks for each thread are enough to keep it busy; a task for every block might be too many.
+        window = 3 * max(1, sum(client.nthreads().values()))
+        running = distributed.as_completed([submit(block) for block in islice(remaining, window)])
+        for done, future in enumerate(running, start=1):
+            future.result()
+            for block in islice(remaining, 1):
+                running.add(submit(block))
+            yield done
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -253,25 +286,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if (options.output is None) != options.append_level:
         parser.error("either OUT or --append-level")
     try:
+        run = _Run.prepare(
+            options.input,
+            options.output,
+            scheme=options.scheme,
+            tension=options.tension,
+            boundary=options.boundary,
+            axes=options.axes,
+            levels=options.levels,
+            chunks=options.chunks,
+            labels=options.labels,
+        )
         with _connect(options) as client, tqdm.tqdm(unit="block") as bar:
 
             def report(done: int, total: int) -> None:
                 bar.total = total
                 bar.update(done - bar.n)
 
-            subdivide(
-                options.input,
-                options.output,
-                client,
-                scheme=options.scheme,
-                tension=options.tension,
-                boundary=options.boundary,
-                axes=options.axes,
-                levels=options.levels,
-                chunks=options.chunks,
-                labels=options.labels,
-                report=report,
-            )
+            run.compute(client, report)
     except KeyboardInterrupt:
         print(f"{PROGRAM}: interrupted: the same command goes on from here", file=sys.stderr)
         return 130

@@ -199,13 +199,13 @@ def test_a_worker_is_killed(tmp_path, volume, small_blocks):
     """The process that computes is killed in the middle of the run; the other one, and its successor, do the rest."""
     distributed = pytest.importorskip("distributed")
     source, target = str(tmp_path / "in.zarr"), str(tmp_path / "out.zarr")
-    write_plain(source, volume, chunks=(10, 10, 10))
+    write_plain(source, volume, chunks=(20, 20, 20))
     killed = []
     with distributed.Client(n_workers=2, threads_per_worker=1, dashboard_address=":0") as client:
 
         def kill_one(done, total):
             if done == 20 and not killed:
-                assert total == 960
+                assert total == 120
                 killed.append(next(iter(client.run(os.getpid).values())))
                 os.kill(killed[0], signal.SIGKILL)
 
@@ -311,7 +311,7 @@ def test_nothing_is_overwritten(tmp_path, client, volume):
 def test_the_commands_errors_are_one_line(tmp_path):
     missing = subprocess.run(command(tmp_path / "none", tmp_path / "out", "--workers", 1), capture_output=True, text=True)
     assert missing.returncode == 1
-    assert [line for line in missing.stderr.splitlines() if "neither" in line and "zarr: " in line]
+    assert missing.stderr.count("\n") == 1 and "neither" in missing.stderr
     for wrong in (["in"], ["in", "out", "--append-level"], ["in", "out", "--scheme", "cubic"]):
         assert subprocess.run(command(*wrong), capture_output=True).returncode == 2
 

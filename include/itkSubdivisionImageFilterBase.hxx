@@ -142,7 +142,7 @@ SubdivisionImageFilterBase<TInputImage, TOutputImage>::VerifyPreconditions() con
   }
   catch (const std::invalid_argument & error)
   {
-    itkExceptionMacro(<< error.what());
+    itkExceptionMacro("Tension is " << m_Tension << ", but " << error.what());
   }
   const auto axes = std::count(m_SubdividedAxes.Begin(), m_SubdividedAxes.End(), true);
   if (axes > static_cast<std::ptrdiff_t>(MaximumNumberOfSubdividedAxes))

@@ -5,7 +5,6 @@
 #include "NonOscillatorySubdivision/ArrayView.h"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 using itk::Subdivision::Box;
@@ -23,10 +22,5 @@ SplitIntoPieces(const Box & whole, std::uint64_t number);
 /** The largest number of pieces that makes sense: a row each. */
 std::uint64_t
 GetMaximumNumberOfPieces(const Box & whole);
-
-/** Calls \c visit with the offset and the number of elements of each range that \c part occupies in an array of \c box,
- * which it lies within; in order. */
-void
-ForEachRange(const Box & box, const Box & part, const std::function<void(std::uint64_t, std::uint64_t)> & visit);
 
 #endif

@@ -10,20 +10,26 @@ using namespace itk::Subdivision;
 class Pipeline::Monitor : public TileMonitor
 {
 public:
-  Monitor(Pipeline & pipeline, Progress & progress)
+  Monitor(const Pipeline & pipeline, Progress & progress)
     : m_Pipeline(pipeline)
     , m_Progress(progress)
-    , m_All(static_cast<double>(CountElements(pipeline.m_Chain.GetWholeOutput())) *
-            pipeline.m_Chain.GetOutput().NumberOfComponents)
+    , m_All(CountElements(pipeline.m_Chain.GetWholeOutput()) * pipeline.m_Chain.GetOutput().NumberOfComponents)
   {}
 
   void
   Completed(const std::size_t elements) override
   {
-    const std::lock_guard<std::mutex> lock(m_Mutex);
-    m_Done += static_cast<double>(elements);
-    // The last percents are for the writer, which does not tell.
-    m_Progress.Update(0.98 * m_Done / m_All);
+    const std::uint64_t done = m_Done += elements;
+    if (done >= m_NextUpdate)
+    {
+      const std::unique_lock<std::mutex> lock(m_Mutex, std::try_to_lock);
+      if (lock.owns_lock())
+      {
+        // The last percents are for the writer, which does not tell.
+        m_Progress.Update(0.98 * static_cast<double>(done) / static_cast<double>(m_All));
+        m_NextUpdate = done + m_All / 500;
+      }
+    }
   }
 
   bool
@@ -41,17 +47,26 @@ public:
   void
   Lost(const std::size_t notANumber, const std::size_t clamped) override
   {
-    const std::lock_guard<std::mutex> lock(m_Mutex);
-    m_Pipeline.m_Losses.NotANumber += notANumber;
-    m_Pipeline.m_Losses.Clamped += clamped;
+    m_NotANumber += notANumber;
+    m_Clamped += clamped;
+  }
+
+  Losses
+  GetLosses() const
+  {
+    return { m_NotANumber, m_Clamped };
   }
 
 private:
-  Pipeline &   m_Pipeline;
-  Progress &   m_Progress;
-  const double m_All;
-  std::mutex   m_Mutex;
-  double       m_Done = 0.0;
+  // Told of every row by every thread, so that a lock would be fought for.
+  const Pipeline &           m_Pipeline;
+  Progress &                 m_Progress;
+  const std::uint64_t        m_All;
+  std::mutex                 m_Mutex;
+  std::atomic<std::uint64_t> m_Done{ 0 };
+  std::atomic<std::uint64_t> m_NextUpdate{ 0 };
+  std::atomic<std::uint64_t> m_NotANumber{ 0 };
+  std::atomic<std::uint64_t> m_Clamped{ 0 };
 };
 
 namespace
@@ -182,6 +197,7 @@ Pipeline::ComputePieces(Progress & progress)
     m_FreeInputs.Push(input);
     m_FullOutputs.Push(output);
   }
+  m_Losses = monitor.GetLosses();
 }
 
 void

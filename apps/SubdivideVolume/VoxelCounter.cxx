@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "VoxelCounter.h"
 
+#include "BoxRuns.h"
+
 #include "NonOscillatorySubdivision/RunTiles.h"
 
 #include <algorithm>
@@ -22,7 +24,18 @@ public:
     : m_Type(type)
     , m_Elements(static_cast<const char *>(elements))
   {
-    ForEachRange(box, part, [this, components](std::uint64_t offset, std::uint64_t count) {
+    std::vector<std::uint64_t> size;
+    Box                        within = part;
+    for (std::size_t axis = 0; axis < box.size(); ++axis)
+    {
+      size.push_back(box[axis].Size);
+      within[axis].First -= box[axis].First;
+    }
+    if (CountElements(part) == 0)
+    {
+      return;
+    }
+    ForEachRun(size, within, [this, components](std::uint64_t offset, std::uint64_t count) {
       for (std::uint64_t first = 0; first < count * components; first += RangeSize)
       {
         m_Ranges.emplace_back(offset * components + first, std::min(RangeSize, count * components - first));

@@ -106,16 +106,15 @@ FindByEnding(const std::string & path)
   for (const auto & object : itk::ObjectFactoryBase::CreateAllInstance("itkImageIOBase"))
   {
     auto * const imageIO = dynamic_cast<itk::ImageIOBase *>(object.GetPointer());
-    if (imageIO != nullptr)
+    if (imageIO == nullptr)
     {
-      for (const auto * const known :
-           { &imageIO->GetSupportedReadExtensions(), &imageIO->GetSupportedWriteExtensions() })
-      {
-        if (std::find(known->begin(), known->end(), ending) != known->end())
-        {
-          return imageIO;
-        }
-      }
+      continue;
+    }
+    const auto & known = imageIO->GetSupportedReadExtensions();
+    const bool   isGipl = ending == ".gipl" && std::string(imageIO->GetNameOfClass()) == "GiplImageIO"; // it lists none
+    if (isGipl || std::find(known.begin(), known.end(), ending) != known.end())
+    {
+      return imageIO;
     }
   }
   return nullptr;

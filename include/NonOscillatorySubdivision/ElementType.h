@@ -91,6 +91,12 @@ SizeOf(const ElementType type)
   return WithElementType(type, [](auto tag) { return sizeof(typename decltype(tag)::Type); });
 }
 
+constexpr bool
+IsInteger(const ElementType type)
+{
+  return type != ElementType::Float && type != ElementType::Double;
+}
+
 /** Whether float is not enough to compute with such elements: 16 bits and less are exact in it. */
 constexpr bool
 NeedsDouble(const ElementType type)

@@ -23,12 +23,6 @@ namespace
 /** Voxels of a block along x, y and z, found by measurement: little halo, and few blocks with more than one label. */
 constexpr std::uint64_t BlockSize[3][3] = { { 4096, 1, 1 }, { 256, 1, 64 }, { 64, 24, 24 } };
 
-bool
-IsInteger(const ElementType type)
-{
-  return type != ElementType::Float && type != ElementType::Double;
-}
-
 template <typename TOut, typename TIn>
 bool
 Fits(const TIn label)

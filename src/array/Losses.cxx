@@ -29,12 +29,6 @@ HasAny(const T * const elements, const std::size_t count, const T first, const T
 } // namespace
 
 bool
-IsInteger(const ElementType type)
-{
-  return type != ElementType::Float && type != ElementType::Double;
-}
-
-bool
 MayHaveLost(const ElementType integers, const void * const elements, const std::size_t count, const bool zeroMayBeNaN)
 {
   return WithElementType(integers, [=](auto tag) {

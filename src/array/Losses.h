@@ -18,9 +18,6 @@ struct Losses
   std::size_t Clamped;    // became the type's least or greatest number
 };
 
-bool
-IsInteger(ElementType type);
-
 /** Whether there is, among elements that were made of real values, one that may not be what its value was: a limit of
  * its type or, if \c zeroMayBeNaN, 0. */
 bool

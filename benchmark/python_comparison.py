@@ -4,8 +4,8 @@
     pip install '.[zarr]' scipy scikit-image SimpleITK     # and torch, opencv-python-headless if wanted
     python benchmark/python_comparison.py --ct build/sample/cranium.nhdr
 
-All get the same array and as many threads; SciPy and scikit-image have one only. Quality: the PSNR of a CT volume that
-was averaged 2 x 2 x 2 and brought back, and the mean angle between the normals of a ball's isosurface and the true ones.
+All get the same array and as many threads; SciPy and scikit-image have one only. Quality: the PSNR of a CT volume
+that was averaged 2 x 2 x 2 and brought back, and the mean angle between the normals of a ball's isosurface and the true ones.
 What is not installed is left out.
 """
 
@@ -15,7 +15,6 @@ import time
 from importlib import import_module, metadata
 
 import numpy as np
-
 from nonoscillatory_subdivision import schemes, subdivide
 
 
@@ -29,7 +28,10 @@ def load(name):
 def own_methods(threads):
     for scheme in schemes():
         yield f"subdivide, {scheme}", lambda volume, scheme=scheme: subdivide(volume, scheme=scheme, threads=threads)
-    yield "subdivide, restored, tension 0", lambda volume: subdivide(volume, scheme="restored", tension=0, threads=threads)
+    yield (
+        "subdivide, restored, tension 0",
+        lambda volume: subdivide(volume, scheme="restored", tension=0, threads=threads),
+    )
 
 
 def scipy_methods(threads):

@@ -4,7 +4,6 @@
 import sys
 
 import numpy as np
-
 from nonoscillatory_subdivision import subdivide
 
 volume = np.load(sys.argv[1], mmap_mode="r")

@@ -5,7 +5,6 @@ import sys
 from pathlib import Path
 
 import SimpleITK as sitk
-
 from nonoscillatory_subdivision import subdivide
 
 

@@ -12,7 +12,6 @@ import dask.array
 import tifffile
 import zarr
 from dask.diagnostics import ProgressBar
-
 from nonoscillatory_subdivision import subdivide, subdivided_grid
 
 

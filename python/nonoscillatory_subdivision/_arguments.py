@@ -154,9 +154,7 @@ def checked_region(region: Region | None, shape: tuple[int, ...]) -> tuple[list[
     return [part.start for part in ranges], [len(part) for part in ranges]
 
 
-def result_type(
-    input_type: np.dtype[Any], dtype: DTypeLike | None, out: NDArray[Any] | None = None
-) -> np.dtype[Any]:
+def result_type(input_type: np.dtype[Any], dtype: DTypeLike | None, out: NDArray[Any] | None = None) -> np.dtype[Any]:
     """The type of the result: what out or dtype say; else the input's, and float32 for bool."""
     asked = _asked_type(dtype, out)
     if asked is None:
@@ -166,9 +164,7 @@ def result_type(
     return asked
 
 
-def label_type(
-    input_type: np.dtype[Any], dtype: DTypeLike | None, out: NDArray[Any] | None = None
-) -> np.dtype[Any]:
+def label_type(input_type: np.dtype[Any], dtype: DTypeLike | None, out: NDArray[Any] | None = None) -> np.dtype[Any]:
     """The type of labels in the result: what out or dtype say; else the input's."""
     asked = _asked_type(dtype, out) or input_type.newbyteorder("=")
     for name, kind in (("labels", input_type), ("the result", asked)):

@@ -18,9 +18,7 @@ def radius(scheme: str) -> int:
 class Options:
     """What to compute: axes are flags in NumPy's order; boundary is nearest, mirror, periodic or constant."""
 
-    def __init__(
-        self, scheme: str, tension: float, axes: Sequence[bool], boundary: str, constant: float
-    ) -> None: ...
+    def __init__(self, scheme: str, tension: float, axes: Sequence[bool], boundary: str, constant: float) -> None: ...
     def input_request(
         self, first: Sequence[int], size: Sequence[int], whole: Sequence[int]
     ) -> tuple[list[int], list[int]]:

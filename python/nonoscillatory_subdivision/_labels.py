@@ -62,8 +62,8 @@ def subdivide_labels(
 ) -> Any:
     r"""Double the resolution of a label map: no label appears that was not there.
 
-    Each label's indicator, 1 where a voxel has the label and 0 elsewhere, is subdivided by the scheme. That is the label's
-    vote; the largest vote wins a child, ties go to the label of the parent and then to the lowest.
+    Each label's indicator, 1 where a voxel has the label and 0 elsewhere, is subdivided by the scheme. That is the
+    label's vote; the largest vote wins a child, ties go to the label of the parent and then to the lowest.
 
     Parameters
     ----------

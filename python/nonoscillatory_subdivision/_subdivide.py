@@ -83,8 +83,8 @@ def subdivide(
     tension : float, optional
         :math:`\tau`, finite and greater than 1; for "restored" at least 0. The larger, the closer to the linear scheme.
     boundary : {"nearest", "mirror", "periodic"} or float, optional
-        What lies outside the volume: the nearest voxel; the volume mirrored at its faces, the outermost voxel twice; the
-        volume repeated; or that number.
+        What lies outside the volume: the nearest voxel; the volume mirrored at its faces, the outermost voxel twice;
+        the volume repeated; or that number.
     axes : int or sequence of int, optional
         The axes to subdivide, three at most. Each position along another axis is a volume of its own. Default: all but
         the channels; of four, the last three.
@@ -103,7 +103,7 @@ def subdivide(
         Called with the fraction that is done, at most fifty times a second, from the calling thread. What it raises
         ends the run.
     channel_axis : int, optional
-        An axis of the array that holds the components of voxels. It is not subdivided and does not count as a dimension.
+        An axis of the array that holds the components of voxels. It is not subdivided and is no dimension.
 
     Returns
     -------

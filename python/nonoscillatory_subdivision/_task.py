@@ -88,9 +88,7 @@ class Task:
             raise TypeError(f"progress {progress!r} cannot be called")
         axes = self.checked_axes(array.ndim)
         return Run(
-            options=_arguments.make_options(
-                self.scheme, self.tension, self.boundary, axes, array.ndim, self.is_labels
-            ),
+            options=_arguments.make_options(self.scheme, self.tension, self.boundary, axes, array.ndim, self.is_labels),
             shape=array.shape,
             axes=axes,
             levels=_arguments.checked_levels(self.levels),

@@ -56,7 +56,7 @@ def block_size(unit: Sequence[int], shape: Sequence[int], axes: Sequence[int]) -
 
 
 class Progress:
-    """The folder beside the output that exists until the run is complete: the job, and a file for each finished block."""
+    """The folder beside the output that exists until the run is complete: the job, a file for each finished block."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder

@@ -64,7 +64,9 @@ def open_image(path: str, is_labels: bool) -> Image:
     if "image-label" in described and not is_labels:
         raise ValueError(f"{path} is a label image, whose labels would be blended: say that they are labels")
     if not described.get("multiscales"):
-        raise ValueError(f"{path} is a group without an image (no 'multiscales'): name the group of one image, or an array")
+        raise ValueError(
+            f"{path} is a group without an image (no 'multiscales'): name the group of one image, or an array"
+        )
     multiscale: dict[str, Any] = described["multiscales"][0]
     axes = multiscale.get("axes", [])
     if not axes or not all(isinstance(axis, dict) for axis in axes):
@@ -111,9 +113,7 @@ def write_new_group(path: str, image: Image, axes: Sequence[int], levels: int, a
     """Describes the result, an array in a group of its own, as an image of one level."""
     assert image.attributes is not None and image.multiscale is not None
     described = image.attributes.get("ome", image.attributes)
-    multiscale: dict[str, Any] = {
-        key: image.multiscale[key] for key in ("version", "name") if key in image.multiscale
-    }
+    multiscale: dict[str, Any] = {key: image.multiscale[key] for key in ("version", "name") if key in image.multiscale}
     multiscale["axes"] = image.multiscale["axes"]
     multiscale["datasets"] = [_dataset(image, axes, levels, array_name)]
     if "coordinateTransformations" in image.multiscale:

@@ -72,7 +72,7 @@ def subdivide_labels(
     dtype: DTypeLike | None = None,
     channel_axis: int | None = None,
 ) -> Any:
-    """Double the resolution of a label map in a Dask array, lazily: as `nonoscillatory_subdivision.subdivide_labels`."""
+    """Double the resolution of a label map, lazily: as `nonoscillatory_subdivision.subdivide_labels`."""
     return apply(Task(scheme, tension, boundary, axes, levels, channel_axis, dtype, is_labels=True), array)
 
 

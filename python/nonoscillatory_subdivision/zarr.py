@@ -176,7 +176,9 @@ def _prepare(image: _zarr_image.Image, place: _Place, wanted: _Wanted, chunks: S
             )
         return job
     if place.exists():
-        raise ValueError(f"{place.array if place.array.exists() else place.folder} exists: remove it or choose another name")
+        raise ValueError(
+            f"{place.array if place.array.exists() else place.folder} exists: remove it or choose another name"
+        )
     output = place.create(wanted, chunks)
     job = job_for(output.shards or output.chunks, output.shape)
     place.progress.begin(job)

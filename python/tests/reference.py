@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The schemes of docs/scheme.md as they stand there, in double precision, on whole arrays. Slow, and written for itself."""
+"""The schemes of docs/scheme.md as they stand there, in double precision, on whole arrays."""
 
 from itertools import combinations, product
 

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Memory, types and parts: the same bytes however the volume lies and whatever part is asked for."""
 
+import nonoscillatory_subdivision
 import numpy as np
 import pytest
-
-import nonoscillatory_subdivision
 from nonoscillatory_subdivision import schemes, subdivide
 
 
@@ -74,7 +73,14 @@ def test_lists():
     assert subdivide([[1.0, 1.0], [1.0, 1.0]]).tolist() == [[1.0] * 4] * 4
 
 
-REGIONS = [np.s_[:, :, :], np.s_[3:4, 7:19, 1:28], np.s_[25:, :1], np.s_[-5:-2, 5:], (slice(0, 2),), np.s_[9:17, 2:3, 27:99]]
+REGIONS = [
+    np.s_[:, :, :],
+    np.s_[3:4, 7:19, 1:28],
+    np.s_[25:, :1],
+    np.s_[-5:-2, 5:],
+    (slice(0, 2),),
+    np.s_[9:17, 2:3, 27:99],
+]
 
 
 @pytest.mark.parametrize("region", REGIONS, ids=str)

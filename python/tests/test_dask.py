@@ -3,7 +3,6 @@
 
 import numpy as np
 import pytest
-
 from nonoscillatory_subdivision import schemes, subdivide
 
 dask_array = pytest.importorskip("dask.array")

@@ -3,7 +3,6 @@
 
 import numpy as np
 import pytest
-
 from nonoscillatory_subdivision import subdivide, subdivided_grid
 
 VOLUME = np.zeros((4, 5, 6), np.float32)

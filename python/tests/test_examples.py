@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
 from nonoscillatory_subdivision import subdivide
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "python"

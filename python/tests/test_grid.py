@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 import pytest
-
 from nonoscillatory_subdivision import subdivided_grid
 
 
@@ -14,7 +13,9 @@ def test_both_images_cover_the_same_box(levels):
     for corner in ((0, 0, 0), (1, 1, 1), (1, 0, 1)):
         old_index = np.array(corner) * sizes - 0.5
         index = np.array(corner) * sizes * 2**levels - 0.5
-        np.testing.assert_allclose(origin + rotation @ (spacing * index), old_origin + rotation @ (old_spacing * old_index))
+        np.testing.assert_allclose(
+            origin + rotation @ (spacing * index), old_origin + rotation @ (old_spacing * old_index)
+        )
 
 
 def test_axes_that_are_not_subdivided_stay():

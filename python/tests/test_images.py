@@ -3,7 +3,6 @@
 
 import numpy as np
 import pytest
-
 from nonoscillatory_subdivision import subdivide
 
 SPACING, ORIGIN = (0.5, 2.0, 3.0), (10.0, -20.0, 30.0)

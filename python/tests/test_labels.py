@@ -4,7 +4,6 @@
 import numpy as np
 import pytest
 import reference
-
 from nonoscillatory_subdivision import subdivide_labels
 
 TYPES = ["uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64"]
@@ -60,7 +59,9 @@ def test_ties_go_to_the_parent_then_to_the_lowest():
 @pytest.mark.parametrize("dtype", TYPES)
 def test_types_and_large_labels(labels, dtype):
     limits = np.iinfo(dtype)
-    names = np.array([int(limits.min) + number * (int(limits.max) - int(limits.min)) // 127 for number in range(128)], dtype)
+    names = np.array(
+        [int(limits.min) + number * (int(limits.max) - int(limits.min)) // 127 for number in range(128)], dtype
+    )
     result = subdivide_labels(names[labels])
     assert result.dtype == dtype
     order = np.argsort(names[np.unique(labels)])

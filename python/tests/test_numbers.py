@@ -5,7 +5,6 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-
 from nonoscillatory_subdivision import subdivide
 
 STEP = np.repeat([0.0, 1.0], 5)
@@ -47,9 +46,7 @@ def fractions(text):
         ),
         (
             SPIKE,
-            [0] * 8
-            + fractions("891/8192, 14499/32768, 23793/32768, 23793/32768, 14499/32768, 891/8192")
-            + [0] * 8,
+            [0] * 8 + fractions("891/8192, 14499/32768, 23793/32768, 23793/32768, 14499/32768, 891/8192") + [0] * 8,
         ),
         (
             np.array([0, 0, 1, 3, 2, 5, 4, 4, 0, 7, 7, 6.0]),
@@ -82,7 +79,12 @@ def test_order_six(scheme, cells, error):
 def phantom():
     volume = np.zeros((96, 96, 96))
     z, y, x = np.ogrid[:96, :96, :96]
-    for box in (np.s_[8:28, 8:28, 8:28], np.s_[40:42, 8:10, 6:46], np.s_[8:40, 50:52, 50:86], np.s_[8:10, 50:80, 50:86]):
+    for box in (
+        np.s_[8:28, 8:28, 8:28],
+        np.s_[40:42, 8:10, 6:46],
+        np.s_[8:40, 50:52, 50:86],
+        np.s_[8:10, 50:80, 50:86],
+    ):
         volume[box] = 1
     volume[(z - 66) ** 2 + (y - 26) ** 2 + (x - 26) ** 2 <= 16**2] = 1
     distance = np.sqrt((z - 66.0) ** 2 + (y - 66) ** 2 + (x - 66) ** 2)

@@ -11,9 +11,8 @@ import sys
 import tarfile
 from pathlib import Path
 
-import pytest
-
 import nonoscillatory_subdivision
+import pytest
 
 REPOSITORY = Path(__file__).parents[2]
 MODULES = ["", "._grid", "._labels", "._subdivide", ".dask", ".zarr"]
@@ -40,7 +39,9 @@ def test_the_installed_package_is_tested():
 
 
 def test_one_version():
-    project_line = re.search(r"^project\(.* VERSION ([0-9.]+)", (REPOSITORY / "CMakeLists.txt").read_text(), re.MULTILINE)
+    project_line = re.search(
+        r"^project\(.* VERSION ([0-9.]+)", (REPOSITORY / "CMakeLists.txt").read_text(), re.MULTILINE
+    )
     assert project_line is not None
     assert nonoscillatory_subdivision.__version__ == project_line[1]
     assert importlib.metadata.version("nonoscillatory-subdivision") == project_line[1]

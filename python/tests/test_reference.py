@@ -4,7 +4,6 @@
 import numpy as np
 import pytest
 import reference
-
 from nonoscillatory_subdivision import schemes, subdivide
 
 INTEGERS = ["int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64"]

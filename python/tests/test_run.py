@@ -7,7 +7,6 @@ import time
 
 import numpy as np
 import pytest
-
 from nonoscillatory_subdivision import subdivide
 
 
@@ -68,4 +67,3 @@ def test_calls_at_the_same_time(large):
         thread.join()
     for result in results:
         np.testing.assert_array_equal(result, expected)
-

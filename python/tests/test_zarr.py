@@ -10,7 +10,6 @@ import time
 
 import numpy as np
 import pytest
-
 from nonoscillatory_subdivision import subdivide, subdivide_labels
 
 zarr = pytest.importorskip("zarr")
@@ -32,7 +31,9 @@ def small_blocks(monkeypatch):
 
 
 def write_plain(path, volume, zarr_format=3, chunks=(16, 16, 16), **options):
-    array = zarr.create_array(path, shape=volume.shape, dtype=volume.dtype, chunks=chunks, zarr_format=zarr_format, **options)
+    array = zarr.create_array(
+        path, shape=volume.shape, dtype=volume.dtype, chunks=chunks, zarr_format=zarr_format, **options
+    )
     array[...] = volume
 
 
@@ -95,7 +96,9 @@ def test_levels_axes_chunks_and_scheme(tmp_path, client, volume, small_blocks, b
 def test_shards_and_codecs_are_kept(tmp_path, client, volume, small_blocks):
     source, target = str(tmp_path / "in.zarr"), str(tmp_path / "out.zarr")
     codec = zarr.codecs.BloscCodec(cname="lz4")
-    write_plain(source, volume, chunks=(8, 8, 8), shards=(32, 32, 32), compressors=codec, dimension_names=["a", "b", "c"])
+    write_plain(
+        source, volume, chunks=(8, 8, 8), shards=(32, 32, 32), compressors=codec, dimension_names=["a", "b", "c"]
+    )
     zarr_subdivision.subdivide(source, target, client)
     result = zarr.open_array(target, mode="r")
     assert (result.chunks, result.shards) == ((8, 8, 8), (32, 32, 32))
@@ -232,7 +235,7 @@ def test_the_command_is_killed_and_goes_on(tmp_path, volume):
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
     finished = len(os.listdir(folder)) - 1
-    assert 0 < finished
+    assert finished > 0
 
     other = subprocess.run([*arguments, "--scheme", "linear"], capture_output=True, text=True, timeout=60)
     assert other.returncode == 1 and "other options" in other.stderr
@@ -309,7 +312,9 @@ def test_nothing_is_overwritten(tmp_path, client, volume):
 
 
 def test_the_commands_errors_are_one_line(tmp_path):
-    missing = subprocess.run(command(tmp_path / "none", tmp_path / "out", "--workers", 1), capture_output=True, text=True)
+    missing = subprocess.run(
+        command(tmp_path / "none", tmp_path / "out", "--workers", 1), capture_output=True, text=True
+    )
     assert missing.returncode == 1
     assert missing.stderr.count("\n") == 1 and "neither" in missing.stderr
     for wrong in (["in"], ["in", "out", "--append-level"], ["in", "out", "--scheme", "cubic"]):

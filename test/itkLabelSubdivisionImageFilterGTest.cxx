@@ -24,7 +24,8 @@ MakeLabels()
   region.SetSize({ { 31, 24, 20 } });
   image->SetRegions(region);
   image->Allocate();
-  image->SetSpacing(itk::MakeVector(0.5, 1.0, 2.0));
+  const double spacing[] = { 0.5, 1.0, 2.0 };
+  image->SetSpacing(spacing);
   for (itk::ImageRegionIteratorWithIndex<ImageType> it(image, region); !it.IsAtEnd(); ++it)
   {
     const auto index = it.GetIndex();
@@ -59,7 +60,8 @@ TEST(LabelSubdivisionImageFilter, KeepsLabelsGeometryAndDefaults)
   const auto * const output = filter->GetOutput();
   EXPECT_EQ(output->GetBufferedRegion().GetIndex(), (ImageType::IndexType{ { -8, 4, 14 } }));
   EXPECT_EQ(output->GetBufferedRegion().GetSize(), (ImageType::SizeType{ { 62, 48, 40 } }));
-  EXPECT_EQ(output->GetSpacing(), itk::MakeVector(0.25, 0.5, 1.0));
+  const double spacing[] = { 0.25, 0.5, 1.0 };
+  EXPECT_EQ(output->GetSpacing(), ImageType::SpacingType(spacing));
   const auto            pixels = GetPixels(output);
   const std::set<short> found(pixels.begin(), pixels.end());
   EXPECT_EQ(found, (std::set<short>{ -3, 0, 700 }));

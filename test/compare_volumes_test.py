@@ -192,6 +192,41 @@ class Options(CompareVolumes):
         ):
             self.assertIn(line, result.stdout.splitlines())
 
+    def test_geometry_to_a_thousandth_of_a_voxel(self):
+        values = [0, 3, 4, 0]
+        figures = self.compare(self.reference, self.reference)
+        for spacing, origin, fits in (([0.5, 4], [0.0004, 0.003], True), ([0.5, 4], [0.0006, 0], False),
+                                      ([0.5, 4], [0, 0.005], False), ([0.5004, 4], [0, 0], True),
+                                      ([0.5, 4.005], [0, 0], False)):
+            near = self.write_mha("n.mha", [2, 2], "f", values, spacing=spacing, origin=origin)
+            if fits:
+                self.assertEqual(self.compare(self.reference, near), figures)
+            else:
+                self.assert_fails("--ignore-geometry", self.reference, near)
+            self.assertEqual(self.compare(self.reference, near, "--ignore-geometry"), figures)
+
+    def test_raw_files(self):
+        raw = self.write_bytes("t.raw", pack("f", [0, 4, 4, 2]))
+        expected = self.compare(self.reference, self.test)
+        self.assertEqual(self.compare(self.reference, raw, "--test-raw", "2x2:float", "--ignore-geometry"), expected)
+        other = self.write_bytes("r.raw", pack("f", [0, 3, 4, 0]))
+        self.assertEqual(self.compare(other, raw, "--raw", "2x2:float", "--test-raw", "2x2:float"), expected)
+
+    def test_version(self):
+        result = self.run_program("--version")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertRegex(result.stdout, r"^CompareVolumes \d+\.\d+")
+
+    def test_a_result_that_cannot_be_written(self):
+        if not os.path.exists("/dev/full"):
+            self.skipTest("there is no /dev/full")
+        for options in ([], ["--json"]):
+            with open("/dev/full", "w", encoding="ascii") as full:
+                result = subprocess.run([PROGRAM, self.reference, self.test, *options], stdout=full,
+                                        stderr=subprocess.PIPE, text=True, check=False)
+            self.assertEqual(result.returncode, 1)
+            self.assertRegex(result.stderr, r"\ACompareVolumes: [^\n]*No space left[^\n]*\n\Z")
+
     def test_help(self):
         result = self.run_program("--help")
         self.assertEqual((result.returncode, result.stderr), (0, ""))
@@ -210,6 +245,7 @@ class Errors(CompareVolumes):
         self.assert_fails("--wrong", self.reference, self.reference, "--wrong", code=2)
         for peak in ("0", "-1", "high", "inf"):
             self.assert_fails("--peak", self.reference, self.reference, "--peak", peak, code=2)
+            self.assertLess(len(self.run_program(self.reference, self.reference, "--peak", peak).stderr), 120)
         for level in ("-0.1", "1.1", "half"):
             self.assert_fails("--quantile", self.reference, self.reference, "--quantile", level, code=2)
         self.assert_fails("The peak must be finite", self.reference, self.reference, "--peak", "nan")

@@ -61,6 +61,19 @@ def write_nifti(path, size, values):
         file.write(gzip.compress(data) if path.endswith(".gz") else data)
 
 
+def write_tiff(path, width, height, values):
+    """A page of 16-bit grey values in one strip."""
+    data = array.array("H", values).tobytes()
+    short, long = 3, 4
+    tags = [(256, long, width), (257, long, height), (258, short, 16), (259, short, 1), (262, short, 1), (273, long, 8),
+            (277, short, 1), (278, long, height), (279, long, len(data))]
+    directory = struct.pack("<H", len(tags))
+    for tag, kind, value in tags:
+        directory += struct.pack("<HHI", tag, kind, 1) + struct.pack("<I" if kind == long else "<Hxx", value)
+    with open(path, "wb") as file:
+        file.write(struct.pack("<2sHI", b"II", 42, 8 + len(data)) + data + directory + bytes(4))
+
+
 def dicom_element(group, element, kind, value):
     value += b"\0" * (len(value) % 2) if kind in ("UI", "OW") else b" " * (len(value) % 2)
     length = struct.pack("<HI", 0, len(value)) if kind == "OW" else struct.pack("<H", len(value))

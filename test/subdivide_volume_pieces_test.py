@@ -9,7 +9,7 @@ import random
 import unittest
 
 from subdivide_volume_case import PROGRAM, ProgramTest, noise
-from subdivide_volume_files import Meta, meta_header, write_compressed_meta, write_meta, write_nrrd
+from subdivide_volume_files import Meta, meta_header, write_compressed_meta, write_meta, write_nrrd, write_tiff
 
 
 class Pieces(ProgramTest):
@@ -57,6 +57,21 @@ class Pieces(ProgramTest):
             with open(self.path("packed-out.mha"), "rb") as file:
                 packed.add(file.read())
         self.assertEqual(len(packed), 1)
+
+    def test_folders_of_slices(self):
+        size, values = [11, 9, 12], noise(1188)
+        write_meta(self.path("in.mha"), size, "H", values)
+        whole = self.meta("in.mha", "whole.mha").data
+        again = self.meta("whole.mha", "again.mha", "--axes", "x").data
+        os.mkdir(self.path("slices"))
+        for z in range(size[2]):
+            write_tiff(self.path(f"slices/slice_{z + 1}.tif"), size[0], size[1], values[99 * z:99 * (z + 1)])
+        for options in self.OPTIONS:
+            self.assertEqual(self.meta("slices", "out.mha", *options).data, whole, options)
+            self.subdivide("slices", "doubled/", *options)
+            names = sorted(os.listdir(self.path("doubled")))
+            self.assertEqual(names, [f"doubled_{z:04}.tif" for z in range(24)])
+            self.assertEqual(self.meta("doubled", "out.mha", "--axes", "x").data, again, options)
 
     def test_more_pieces_than_rows(self):
         """Pieces are at least rows."""

@@ -7,6 +7,7 @@ import math
 import os
 import re
 import struct
+import subprocess
 import unittest
 
 from subdivide_volume_case import PROGRAM, ProgramTest, noise
@@ -165,6 +166,10 @@ class Words(Reports):
                         "--output-type", "Float")
         self.assertEqual(out.data, expected)
         self.subdivide("in.mha", "out.mha", "--scheme", "NonOscillatory", "--target", "Portable")
+        message = self.run_program(*self.files, "--target", "none").stderr
+        for target in re.search(r"one of (.*), not none", message)[1].split(", "):
+            for name in (target, target.lower(), target.upper()):
+                self.subdivide("in.mha", "out.mha", "--target", name)
 
     def test_sizes(self):
         for size in ("0.5G", "500M", "500MB", "500000k", "1.5GiB", "1gb", "1.5 GiB", "2e9", "1T", "524288KiB"):
@@ -216,7 +221,6 @@ class Words(Reports):
             self.skipTest("there is no /dev/full")
         for arguments in (["--json", *self.files], ["--info", self.files[0]], ["--formats"]):
             with open("/dev/full", "w", encoding="ascii") as full:
-                import subprocess
                 result = subprocess.run([PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
             self.assertEqual(result.returncode, 1, arguments)
             self.assertIn("No space left", result.stderr)

@@ -103,14 +103,17 @@ AddComputation(CLI::App & app, Options & options)
     ->transform(CLI::Validator(CheckBoundary, ""));
   app.add_option("--axes", options.Axes, "The axes to subdivide, such as xyz or xy (default: the first three)")
     ->transform(CLI::Validator(CheckAxes, ""));
-  app.add_option("--output-type", options.OutputType, "The type of the output: " + CLI::detail::join(GetTypeNames()))
+  app
+    .add_option(
+      "--output-type", options.OutputType, "The type of the output: " + CLI::detail::join(GetTypeNames(), ", "))
     ->capture_default_str()
     ->transform(OneOf(GetTypeNames()));
   app
-    .add_option("--target",
-                options.Target,
-                "The instruction set: " + CLI::detail::join(itk::Subdivision::Target::GetNames(), ", ") +
-                  " (default: the first). Results of two may differ in the last place")
+    .add_option(
+      "--target",
+      options.Target,
+      "The instruction set, such as AVX2 or portable (default: the fastest). Results of two may differ in the "
+      "last place")
     ->transform(OneOf(itk::Subdivision::Target::GetNames()));
 }
 

@@ -141,7 +141,8 @@ OneOf(const std::vector<std::string> & words)
 {
   return CLI::Validator(
     [words](std::string & text) {
-      const auto found = std::find(words.begin(), words.end(), ToLower(text));
+      const auto isMeant = [&text](const std::string & word) { return ToLower(word) == ToLower(text); };
+      const auto found = std::find_if(words.begin(), words.end(), isMeant);
       if (found == words.end())
       {
         return "it must be one of " + CLI::detail::join(words, ", ") + ", not " + text;

@@ -146,6 +146,67 @@ class Decoys(ProgramTest):
                 if ending in ("mha", "mhd"):
                     self.assertEqual(Meta(os.path.join(target, name)).data, whole)
 
+    def test_the_old_data_file_of_a_header_that_is_replaced_goes(self):
+        write_meta(self.path("in.mha"), [6, 5, 4], "h", noise(120))
+        for ending, packed in (("mhd", "zraw"), ("nhdr", "raw.gz")):
+            header = f"scan.{ending}"
+            for options, data in (([], "scan.raw"), (["--compress"], f"scan.{packed}"), ([], "scan.raw")):
+                folder = self.path(ending)
+                os.makedirs(folder, exist_ok=True)
+                self.subdivide("in.mha", f"{ending}/{header}", *options)
+                self.assertEqual(sorted(os.listdir(folder)), sorted([header, data]))
+
+    def test_a_data_file_that_another_header_may_name_stays(self):
+        write_meta(self.path("in.mha"), [6, 5, 4], "h", noise(120))
+        others = {"other.mhd": meta_header([12, 10, 8], "h", data_file="scan.raw"),
+                  "list.mhd": meta_header([12, 10, 8], "h", data_file="LIST") + b"scan.raw\n",
+                  "pattern.mha": meta_header([12, 10, 8], "h", data_file="scan%d.raw 1 3 1"),
+                  "other.nhdr": b"NRRD0004\ntype: short\ndimension: 3\nsizes: 12 10 8\nencoding: raw\nendian: little\n"
+                                b"data file: ./scan.raw\n"}
+        for name, content in others.items():
+            folder = self.path(name + ".d")
+            os.mkdir(folder)
+            self.subdivide("in.mha", f"{name}.d/scan.mhd")
+            with open(os.path.join(folder, name), "wb") as file:
+                file.write(content)
+            before = self.snapshot(folder)
+            self.subdivide("in.mha", f"{name}.d/scan.mhd", "--compress")
+            after = self.snapshot(folder)
+            self.assertEqual(sorted(os.listdir(folder)), sorted(["scan.mhd", "scan.raw", "scan.zraw", name]))
+            for kept in (name, "scan.raw"):
+                self.assertEqual(after[os.path.join(folder, kept)], before[os.path.join(folder, kept)])
+
+    def test_data_that_the_replaced_header_does_not_name_by_the_rule_stays(self):
+        write_meta(self.path("in.mha"), [6, 5, 4], "h", noise(120))
+        os.mkdir(self.path("more"))
+        for data in ("scan.raw.bak", "more/scan.raw", "voxels.raw", "scan.zraw2"):
+            with open(self.path("scan.mhd"), "wb") as file:
+                file.write(meta_header([6, 5, 4], "h", data_file=data))
+            with open(self.path(data), "wb") as file:
+                file.write(b"precious")
+            self.subdivide("in.mha", "scan.mhd", "--compress")
+            with open(self.path(data), "rb") as file:
+                self.assertEqual(file.read(), b"precious")
+            os.remove(self.path("scan.zraw"))
+        os.symlink("voxels.raw", self.path("scan.raw"))
+        with open(self.path("scan.mhd"), "wb") as file:
+            file.write(meta_header([6, 5, 4], "h", data_file="scan.raw"))
+        self.subdivide("in.mha", "scan.mhd", "--compress")
+        self.assertTrue(os.path.islink(self.path("scan.raw")))
+
+    def test_a_folder_that_is_read_is_not_replaced(self):
+        write_meta(self.path("in.mha"), [6, 5, 4], "H", noise(120))
+        self.subdivide("in.mha", "slices/")
+        os.symlink("slices", self.path("link"))
+        before = self.snapshot(self.path("slices"))
+        for source in ("slices", "link", "slices/slices_0003.tif"):
+            for output in ("slices/", "slices", "link/", "link/../slices/."):
+                for task in ([], ["--info"]):
+                    self.assert_fails(self.run_program(self.path(source), self.path(output), *task), 1, "is there")
+        self.assertEqual(self.snapshot(self.path("slices")), before)
+        self.subdivide("in.mha", "slices/", "--scheme", "linear")
+        self.assertEqual(sorted(self.snapshot(self.path("slices"))), sorted(before))
+
     @staticmethod
     def snapshot(folder):
         contents = {}

@@ -274,9 +274,12 @@ class Labels(Reports):
     def check_warning(self, name):
         result = self.run_program(self.path(name), self.path("out.mha"))
         self.assertEqual(result.returncode, 0)
-        self.assertEqual(len(re.findall("(?m)^SubdivideVolume: warning: .*label", result.stderr)), 1, result.stderr)
+        self.assertEqual(len(re.findall("(?m)^SubdivideVolume: warning: .*--labels", result.stderr)), 1, result.stderr)
         self.assertRegex(result.stdout, "(?m)^warning .*label")
         self.assertEqual(len(self.run_and_report(name)["warnings"]), 1)
+        report = self.run_and_report(name, "--labels")
+        self.assertEqual((report["warnings"], report["labels"], report["scheme"], report["tension"]),
+                         ([], True, "restored", 0))
 
 
 if __name__ == "__main__":

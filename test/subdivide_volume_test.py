@@ -366,9 +366,16 @@ class Messages(ProgramTest):
         self.assertEqual(root.tag, "executable")
         arguments = []
         for parameter in root.findall("parameters/*[longflag]"):
-            arguments.append(parameter.find("longflag").text)
-            if parameter.tag != "boolean":
-                arguments.append(parameter.find("default").text)
+            flag, default = parameter.find("longflag").text, parameter.find("default").text
+            # An empty string and what is false are left out.
+            if parameter.tag == "boolean":
+                arguments += [flag] if default == "true" else []
+                self.assertEqual(self.subdivide("in.mha", "out.mha", flag).returncode, 0)
+            elif default is not None:
+                arguments += [flag, default]
+            else:
+                self.assertEqual(parameter.tag, "string")
+                self.assertIn(flag, self.run_program("--help").stdout)
             for element in parameter.findall("element"):
                 self.assertEqual(self.subdivide("in.mha", "out.mha", arguments[-2], element.text).returncode, 0)
         indices = [image.find("channel").text for image in root.findall("parameters/image")]

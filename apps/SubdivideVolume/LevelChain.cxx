@@ -2,6 +2,7 @@
 #include "LevelChain.h"
 
 #include "NonOscillatorySubdivision/Geometry.h"
+#include "NonOscillatorySubdivision/LabelSubdivider.h"
 #include "NonOscillatorySubdivision/RunTiles.h"
 #include "NonOscillatorySubdivision/Target.h"
 
@@ -99,6 +100,27 @@ Subdivide(const ImageGrid & grid, const Flags & subdivided)
   return result;
 }
 
+/** \throw std::runtime_error if voxels cannot be labels */
+void
+CheckLabels(const ImageDescription & input, const ElementType output)
+{
+  if (!IsInteger(input.Component))
+  {
+    throw std::runtime_error(std::string("--labels: labels are integers, but the voxels are of the type ") +
+                             GetName(input.Component));
+  }
+  if (!IsInteger(output))
+  {
+    throw std::runtime_error(std::string("--labels: labels are integers, which --output-type ") + GetName(output) +
+                             " is not made for");
+  }
+  if (input.NumberOfComponents > 1)
+  {
+    throw std::runtime_error("--labels: the voxels have " + std::to_string(input.NumberOfComponents) +
+                             " components each; a label is a single number");
+  }
+}
+
 /** Passes on whether to stop, but not what was done: the levels between are not part of the output. */
 class LevelMonitor : public TileMonitor
 {
@@ -122,13 +144,22 @@ private:
 
 LevelChain::LevelChain(const ImageDescription & input, const ::Options & options, const unsigned int threads)
   : m_Threads(threads)
+  , m_IsOfLabels(options.Labels)
   , m_Components(input.NumberOfComponents)
   , m_Input(input.Component)
   , m_Output(input)
 {
   const Flags axes = GetSubdividedAxes(options.Axes, input.Grid.Size.size());
   m_Output.Component = GetOutputType(options.OutputType, input.Component);
-  m_Real = NeedsDouble(m_Input) || NeedsDouble(m_Output.Component) ? ElementType::Double : ElementType::Float;
+  if (m_IsOfLabels)
+  {
+    CheckLabels(input, m_Output.Component);
+    m_BetweenType = m_Input;
+  }
+  else
+  {
+    m_BetweenType = NeedsDouble(m_Input) || NeedsDouble(m_Output.Component) ? ElementType::Double : ElementType::Float;
+  }
 
   m_Options.Scheme = &FindScheme(options.Scheme);
   m_Options.Tension = options.Tension;
@@ -240,9 +271,19 @@ LevelChain::GetScratchBytes(const Box & piece) const
   const std::vector<Box> requests = this->GetRequests(piece);
   for (std::size_t level = 1; level < requests.size(); ++level)
   {
-    bytes += CountElements(requests[level]) * SizeOf(m_Real);
+    bytes += CountElements(requests[level]) * SizeOf(m_BetweenType);
   }
   return bytes;
+}
+
+std::unique_ptr<TileRun>
+LevelChain::MakeRun(const ConstArrayView & input, const Box & whole, const ArrayView & output)
+{
+  if (m_IsOfLabels)
+  {
+    return std::make_unique<LabelSubdivider>(input, whole, output, m_Options);
+  }
+  return std::make_unique<Subdivider>(input, whole, output, m_Options, m_Threads, m_Workspace);
 }
 
 void
@@ -258,12 +299,12 @@ LevelChain::Compute(const Box & request, const void * input, const Box & piece, 
     PageBuffer * buffer = isLast ? nullptr : &m_Between[level];
     if (!isLast)
     {
-      buffer->Reserve(CountElements(box) * SizeOf(m_Real));
+      buffer->Reserve(CountElements(box) * SizeOf(m_BetweenType));
     }
     const auto target =
-      this->MakeView<ArrayView>(box, isLast ? m_Output.Component : m_Real, isLast ? output : buffer->GetData());
-    Subdivider run(source, m_Wholes[level], target, m_Options, m_Threads, m_Workspace);
-    RunTiles(run, m_Threads, isLast ? monitor : between);
+      this->MakeView<ArrayView>(box, isLast ? m_Output.Component : m_BetweenType, isLast ? output : buffer->GetData());
+    const auto run = this->MakeRun(source, m_Wholes[level], target);
+    RunTiles(*run, m_Threads, isLast ? monitor : between);
     source = { target.Data, target.Type, target.Axes };
   }
 }

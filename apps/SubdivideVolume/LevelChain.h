@@ -9,10 +9,12 @@
 
 #include "NonOscillatorySubdivision/Subdivider.h"
 
+#include <memory>
 #include <vector>
 
-/** What is computed of an image: its resolution doubled once for each level, with real values between levels. Boxes are
- * those of the image, counted from its first voxel; the components of a voxel lie side by side. */
+/** What is computed of an image: its resolution doubled once for each level, with real values between levels, or labels
+ * again where the voxels are labels. Boxes are those of the image, counted from its first voxel; the components of a
+ * voxel lie side by side. */
 class LevelChain
 {
 public:
@@ -65,10 +67,17 @@ private:
   TView
   MakeView(const Box & box, itk::Subdivision::ElementType type, decltype(TView::Data) data) const;
 
+  /** What computes one level. */
+  std::unique_ptr<itk::Subdivision::TileRun>
+  MakeRun(const itk::Subdivision::ConstArrayView & input,
+          const Box &                              whole,
+          const itk::Subdivision::ArrayView &      output);
+
   unsigned int                  m_Threads;
+  bool                          m_IsOfLabels;
   unsigned int                  m_Components;
   itk::Subdivision::ElementType m_Input;
-  itk::Subdivision::ElementType m_Real;
+  itk::Subdivision::ElementType m_BetweenType;
   itk::Subdivision::Options     m_Options;
   std::vector<Box>              m_Wholes; // with components: the input of each level, and the output
   ImageDescription              m_Output;

@@ -4,6 +4,7 @@
 #include "CommandLine.h"
 #include "SlicerDescription.h"
 
+#include "NonOscillatorySubdivision/LabelSubdivider.h"
 #include "NonOscillatorySubdivision/Scheme.h"
 #include "NonOscillatorySubdivision/Target.h"
 
@@ -17,6 +18,8 @@ constexpr const char * Footer = R"(Examples:
   SubdivideVolume --spacing 0.02 slices/ doubled/          folders of TIFF slices
   SubdivideVolume --raw 1024x1024x800:uint16 scan.raw doubled.nrrd
   SubdivideVolume --memory 500M huge.mha huge-doubled.mha
+  SubdivideVolume --levels 2 scan.mha fourfold.mha
+  SubdivideVolume --labels organs.seg.nrrd doubled.seg.nrrd
   SubdivideVolume --info scan.mha
 
 Exit status: 0 if the output is complete, 1 if the run failed, 2 if the command line was wrong.)";
@@ -63,10 +66,13 @@ BytesToNumber(std::string & text)
   }
 }
 
+/** Stands for what is best for the voxels; 3D Slicer cannot leave a choice out. */
+constexpr const char * DefaultScheme = "default";
+
 std::vector<std::string>
 GetSchemeNames()
 {
-  std::vector<std::string> names;
+  std::vector<std::string> names = { DefaultScheme };
   for (const itk::Subdivision::Scheme & scheme : itk::Subdivision::Schemes)
   {
     names.emplace_back(scheme.Name);
@@ -89,15 +95,22 @@ GetTypeNames()
 void
 AddComputation(CLI::App & app, Options & options)
 {
-  app.add_option("--scheme", options.Scheme, "The scheme: " + CLI::detail::join(GetSchemeNames(), ", "))
-    ->capture_default_str()
-    ->transform(OneOf(GetSchemeNames()));
   app
-    .add_option("--tension",
-                options.Tension,
-                "How close the nonoscillatory and the restored scheme keep to the linear one: greater than 1; for "
-                "restored, 0 or greater")
-    ->capture_default_str();
+    .add_option("--scheme",
+                options.Scheme,
+                "The scheme: " + CLI::detail::join(GetSchemeNames(), ", ") +
+                  "; default is nonoscillatory, with --labels restored")
+    ->transform(OneOf(GetSchemeNames()));
+  app.add_option("--tension",
+                 options.Tension,
+                 "How close the nonoscillatory and the restored scheme keep to the linear one: greater than 1; for "
+                 "restored, 0 or greater (default: 2, with --labels 0)");
+  app.add_flag("--labels",
+               options.Labels,
+               "The voxels are labels: none appears between two others (schemes restored, bspline and linear)");
+  app.add_option("--levels", options.Levels, "How many times to double the resolution: 1, 2 or 3")
+    ->capture_default_str()
+    ->check(CLI::Range(1u, 3u));
   app.add_option("--boundary", options.Boundary, "Beyond the image: nearest, mirror, periodic or a value")
     ->capture_default_str()
     ->transform(CLI::Validator(CheckBoundary, ""));
@@ -169,17 +182,47 @@ AddTasks(CLI::App & app, Options & options)
   app.set_version_flag("--version", std::string("SubdivideVolume ") + GetProgramVersion());
 }
 
+/** Fills in what was not chosen, and checks the rest. */
 void
-CheckTogether(Options & options)
+CompleteScheme(const CLI::App & app, Options & options)
 {
+  using namespace itk::Subdivision;
+  const itk::Subdivision::Options forLabels = LabelSubdivider::GetDefaultOptions();
+  if (options.Scheme.empty() || options.Scheme == DefaultScheme)
+  {
+    options.Scheme = options.Labels ? forLabels.Scheme->Name : Schemes[0].Name;
+  }
+  const Scheme & scheme = FindScheme(options.Scheme);
+  if (app.count("--tension") == 0)
+  {
+    const bool isForLabels = options.Labels && &scheme == forLabels.Scheme;
+    options.Tension = isForLabels ? forLabels.Tension : itk::Subdivision::Options().Tension;
+  }
   try
   {
-    CheckTension(itk::Subdivision::FindScheme(options.Scheme), options.Tension);
+    CheckTension(scheme, options.Tension);
   }
   catch (const std::invalid_argument & error)
   {
     throw UsageError("--tension " + CLI::detail::to_string(options.Tension) + ": " + error.what());
   }
+  try
+  {
+    if (options.Labels)
+    {
+      LabelSubdivider::CheckScheme(scheme);
+    }
+  }
+  catch (const std::invalid_argument & error)
+  {
+    throw UsageError(std::string("--labels: ") + error.what());
+  }
+}
+
+void
+CheckTogether(const CLI::App & app, Options & options)
+{
+  CompleteScheme(app, options);
   if (options.Task != Task::ListFormats && options.Task != Task::DescribeItself)
   {
     Require(options.Input, "INPUT");
@@ -212,7 +255,7 @@ ParseCommandLine(int argc, char * argv[], Options & options)
   const std::optional<int> exitCode = ParseArguments(app, argc, argv);
   if (!exitCode)
   {
-    CheckTogether(options);
+    CheckTogether(app, options);
   }
   return exitCode;
 }

@@ -27,8 +27,9 @@ struct Options
   std::string   Output; // empty where the task has none
   InputOptions  Reading;
   OutputOptions Writing;
-  std::string   Scheme = "nonoscillatory";
-  double        Tension = 2.0;
+  bool          Labels = false; // the voxels are labels
+  std::string   Scheme;
+  double        Tension = 0.0;
   std::string   Boundary = "nearest";
   std::string   Axes;                // letters of x, y, z, t; empty: the first three
   unsigned int  Levels = 1;          // how many times the resolution is doubled

@@ -47,27 +47,43 @@ subdivision to voxel data".]]></acknowledgements>
       <label>Scheme</label>
       <description><![CDATA[nonoscillatory: no overshoots at isolated edges; linear: sharper, rings at edges;
 bounded: linear, clamped to the local range; bspline: the smoothest; restored: smooth surfaces with their details
-and volumes]]></description>
-      <default>nonoscillatory</default>
+and volumes; default: nonoscillatory, for label maps restored]]></description>
+      <default>default</default>
+      <element>default</element>
       <element>nonoscillatory</element>
       <element>linear</element>
       <element>bounded</element>
       <element>bspline</element>
       <element>restored</element>
     </string-enumeration>
-    <double>
+    <string>
       <name>tension</name>
       <longflag>--tension</longflag>
       <label>Tension</label>
       <description><![CDATA[How close the non-oscillatory and the restored scheme keep to the
-linear one; greater than 1, for the restored scheme 0 or greater]]></description>
-      <default>2</default>
+linear one; greater than 1, for the restored scheme 0 or greater; empty: 2, for label maps 0]]></description>
+      <default></default>
+    </string>
+    <boolean>
+      <name>labels</name>
+      <longflag>--labels</longflag>
+      <label>Label map</label>
+      <description><![CDATA[The voxels are labels: none appears between two others. Schemes: default,
+restored, bspline and linear]]></description>
+      <default>false</default>
+    </boolean>
+    <integer>
+      <name>levels</name>
+      <longflag>--levels</longflag>
+      <label>Levels</label>
+      <description><![CDATA[How many times to double the resolution]]></description>
+      <default>1</default>
       <constraints>
-        <minimum>0</minimum>
-        <maximum>100</maximum>
-        <step>0.1</step>
+        <minimum>1</minimum>
+        <maximum>3</maximum>
+        <step>1</step>
       </constraints>
-    </double>
+    </integer>
     <string>
       <name>boundary</name>
       <longflag>--boundary</longflag>

@@ -18,10 +18,14 @@
 #include "Warnings.h"
 #include "WatchedRun.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 
 #include <unistd.h>
+
+namespace fs = std::filesystem;
 
 namespace
 {
@@ -46,14 +50,33 @@ GetProgressStyle(const Options & options)
   return isatty(fileno(GetTerminal())) ? Progress::Style::Bar : Progress::Style::Lines;
 }
 
+/** \throw std::runtime_error if the folder that is to be replaced is what is read, or holds it */
+void
+CheckFolders(const Options & options)
+{
+  std::error_code error;
+  const fs::path  output = fs::canonical(options.Output, error);
+  if (error || !fs::is_directory(output, error))
+  {
+    return;
+  }
+  const fs::path input = fs::canonical(options.Input, error);
+  if (!error && std::mismatch(output.begin(), output.end(), input.begin(), input.end()).first == output.end())
+  {
+    throw std::runtime_error("cannot write " + options.Output + ": the input " + options.Input +
+                             " is there; name another folder");
+  }
+}
+
 std::unique_ptr<VolumeReader>
 Open(const Options & options, Warnings & warnings)
 {
   auto reader =
     OpenVolume(options.Input, options.Reading, [&warnings](const std::string & text) { warnings.Add(text); });
-  if (reader->GetDescription().IsLabelMap)
+  if (reader->GetDescription().IsLabelMap && !options.Labels)
   {
-    warnings.Add("the file says that its voxels are labels; between two labels others appear that mean something else");
+    warnings.Add("the file says that its voxels are labels; between two labels others appear that mean something else, "
+                 "unless --labels is given");
   }
   return reader;
 }
@@ -61,6 +84,7 @@ Open(const Options & options, Warnings & warnings)
 std::unique_ptr<VolumeWriter>
 Create(const Options & options, unsigned int threads, Warnings & warnings)
 {
+  CheckFolders(options);
   OutputOptions writing = options.Writing;
   writing.Threads = threads;
   return CreateVolume(options.Output, writing, [&warnings](const std::string & text) { warnings.Add(text); });

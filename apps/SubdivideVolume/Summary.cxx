@@ -102,6 +102,7 @@ ToJson(const Options & options)
   object["tension"] = options.Tension;
   object["boundary"] = options.Boundary;
   object["levels"] = options.Levels;
+  object["labels"] = options.Labels;
   return object;
 }
 

@@ -19,14 +19,14 @@ Fail(const std::string & path, const std::string & reason)
   throw std::runtime_error("cannot write " + path + ": " + reason);
 }
 
-/** Whether an existing header says that its voxels are in the file of that name. */
-bool
-RefersTo(const fs::path & header, const std::string & dataName)
+/** What an existing header calls the file of its voxels; empty if it does not exist or names none. */
+std::string
+ReadDataName(const fs::path & header)
 {
   std::error_code error;
   if (!fs::is_regular_file(header, error))
   {
-    return false;
+    return {};
   }
   const std::string text = InputFile(header.string()).ReadTextAt(0, 1 << 20) + "\n";
   for (std::size_t start = 0, end = 0; (end = text.find('\n', start)) != std::string::npos; start = end + 1)
@@ -37,7 +37,38 @@ RefersTo(const fs::path & header, const std::string & dataName)
     if (key == "elementdatafile" || key == "data file" || key == "datafile")
     {
       const std::string value = Trim(line.substr(separator + 1));
-      return value == dataName || value == "./" + dataName;
+      return value.rfind("./", 0) == 0 ? value.substr(2) : value;
+    }
+  }
+  return {};
+}
+
+/** Whether a file may hold the voxels of another image in its folder: whether a header there, other than that one, has
+ * its name or names files by a pattern or a list. One that cannot be read might. */
+bool
+IsNamedByAnother(const fs::path & data, const fs::path & header)
+{
+  for (const fs::directory_entry & entry : fs::directory_iterator(data.parent_path()))
+  {
+    const std::string ending = ToLower(entry.path().extension().string());
+    std::error_code   error;
+    if (entry.path() == header || !entry.is_regular_file(error) ||
+        (ending != ".mhd" && ending != ".nhdr" && ending != ".mha" && ending != ".nrrd"))
+    {
+      continue;
+    }
+    try
+    {
+      const std::string name = ReadDataName(entry.path());
+      if (fs::path(name).filename() == data.filename() || name.rfind("LIST", 0) == 0 ||
+          name.find('%') != std::string::npos)
+      {
+        return true;
+      }
+    }
+    catch (const std::runtime_error &)
+    {
+      return true;
     }
   }
   return false;
@@ -70,10 +101,10 @@ PlainWriter::GetScratchBytes(std::uint64_t) const
 
 /** A name that no reader takes for a list, a pattern or several words, and that the file system can hold. */
 std::string
-PlainWriter::GetDataName() const
+PlainWriter::GetDataName(const bool isCompressed) const
 {
   constexpr std::size_t longest = 255;
-  const std::string     ending = m_Options.Compress ? (m_IsNrrd ? ".raw.gz" : ".zraw") : ".raw";
+  const std::string     ending = isCompressed ? (m_IsNrrd ? ".raw.gz" : ".zraw") : ".raw";
   std::string           stem = m_Folder->GetFileName().stem().string();
   stem.resize(std::min(stem.size(), longest - ending.size()));
   for (char & c : stem)
@@ -94,7 +125,7 @@ PlainWriter::ComposeHeader() const
   const auto style = m_IsNrrd ? MetadataStyle::Nrrd : MetadataStyle::MetaImage;
   const auto metadata = SelectMetadata(m_Description, style, m_Options.KeepMetadata);
   // A name that starts with LIST would mean a list of names.
-  std::string dataName = m_IsDetached ? this->GetDataName() : m_IsNrrd ? "" : "LOCAL";
+  std::string dataName = m_IsDetached ? this->GetDataName(m_Options.Compress) : m_IsNrrd ? "" : "LOCAL";
   dataName = m_IsDetached && dataName.rfind("LIST", 0) == 0 ? "./" + dataName : dataName;
   return m_IsNrrd ? ComposeNrrdHeader(m_Description, metadata, dataName, m_Options.Compress)
                   : ComposeMetaHeader(m_Description, metadata, dataName, m_Options.Compress);
@@ -104,11 +135,26 @@ void
 PlainWriter::CheckDataName() const
 {
   const fs::path  output = m_Folder->GetOutput();
-  const fs::path  data = output.parent_path() / this->GetDataName();
+  const fs::path  data = output.parent_path() / this->GetDataName(m_Options.Compress);
   std::error_code error;
-  if (fs::exists(fs::symlink_status(data, error)) && !RefersTo(output, data.filename().string()))
+  if (fs::exists(fs::symlink_status(data, error)) && ReadDataName(output) != data.filename().string())
   {
     Fail(m_Path, "its voxels would replace the file " + data.string() + ", which is another image's");
+  }
+}
+
+/** The header that is replaced may name the compressed voxels where this one names plain ones, or the other way round:
+ * they would be nobody's, and in the way of a later output. */
+void
+PlainWriter::RemoveOldData()
+{
+  const fs::path  output = m_Folder->GetOutput();
+  const fs::path  data = output.parent_path() / this->GetDataName(!m_Options.Compress);
+  std::error_code error;
+  if (ReadDataName(output) == data.filename().string() && fs::is_regular_file(fs::symlink_status(data, error)) &&
+      !IsNamedByAnother(data, output))
+  {
+    m_Folder->RemoveAfterwards(data.filename().string());
   }
 }
 
@@ -124,8 +170,9 @@ PlainWriter::Begin(const ImageDescription & description)
   if (m_IsDetached)
   {
     this->CheckDataName();
-    m_Folder->AllowReplacing(this->GetDataName());
-    m_DataFile = std::make_unique<OutputFile>((file.parent_path() / this->GetDataName()).string(), m_Path);
+    m_Folder->AllowReplacing(this->GetDataName(m_Options.Compress));
+    m_DataFile =
+      std::make_unique<OutputFile>((file.parent_path() / this->GetDataName(m_Options.Compress)).string(), m_Path);
   }
   OutputFile & data = m_DataFile != nullptr ? *m_DataFile : *m_HeaderFile;
   m_BytesWritten = m_CompressedBytes = 0;
@@ -211,6 +258,7 @@ PlainWriter::Commit()
   if (m_IsDetached)
   {
     this->CheckDataName();
+    this->RemoveOldData();
   }
   m_Folder->Commit();
 }

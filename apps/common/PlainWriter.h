@@ -36,11 +36,13 @@ public:
 
 private:
   std::string
-  GetDataName() const;
+  GetDataName(bool isCompressed) const;
   std::string
   ComposeHeader() const;
   void
   CheckDataName() const;
+  void
+  RemoveOldData();
   void
   CheckHeader() const;
 

@@ -214,6 +214,12 @@ TemporaryFolder::AllowReplacing(const std::string & name)
 }
 
 void
+TemporaryFolder::RemoveAfterwards(const std::string & name)
+{
+  m_Obsolete.insert(name);
+}
+
+void
 TemporaryFolder::Commit()
 {
   std::vector<fs::path> names;
@@ -246,6 +252,11 @@ TemporaryFolder::Commit()
     {
       fs::rename(m_Folder / name, target / name);
     }
+  }
+  for (const std::string & name : m_Obsolete)
+  {
+    std::error_code error; // the output is complete all the same
+    fs::remove(target / name, error);
   }
   this->Remove(lock);
 }

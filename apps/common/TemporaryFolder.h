@@ -50,6 +50,10 @@ public:
   void
   AllowReplacing(const std::string & name);
 
+  /** Lets Commit() remove a file beside the output, which belonged to the one that is replaced. */
+  void
+  RemoveAfterwards(const std::string & name);
+
   /** Brings all files to the disk and renames them, the named output last.
    * \throw std::runtime_error if the disk is full or another file stands in the way */
   void
@@ -66,6 +70,7 @@ private:
   std::filesystem::path m_Folder;
   bool                  m_IsInPlace = false;
   std::set<std::string> m_Replaceable;
+  std::set<std::string> m_Obsolete;
 };
 
 #endif

@@ -70,7 +70,12 @@ HoldElection(const LabelCase<D> & test)
         parent[w] =
           test.Settings.axes[w] ? ref::FloorModulo(child[w], 2) == 0 ? child[w] / 2 : (child[w] - 1) / 2 : child[w];
       }
-      const double vote = votes.At(child);
+      ref::Index<D> fromStart = child;
+      for (unsigned int w = 0; w < D; ++w)
+      {
+        fromStart[w] -= start[w];
+      }
+      const double vote = votes.At(fromStart);
       const bool   isFirst = winners.count(child) == 0;
       if (isFirst || vote > most[child] || (vote == most[child] && test.Map.at(parent) == label))
       {

@@ -14,8 +14,9 @@ namespace
 std::pair<long, long>
 StencilOf(long first, long last, SchemeEnum scheme)
 {
-  const long below = scheme == SchemeEnum::NonOscillatory ? 4 : 2;
-  const long above = scheme == SchemeEnum::NonOscillatory ? 5 : 3;
+  const bool isFar = scheme == SchemeEnum::NonOscillatory || scheme == SchemeEnum::Restored;
+  const long below = isFar ? 4 : 2;
+  const long above = isFar ? 5 : 3;
   return { ref::Child(first).p - below, ref::Child(last).p + above };
 }
 

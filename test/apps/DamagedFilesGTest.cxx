@@ -167,8 +167,8 @@ TEST(SpecialFiles, AreRefusedAtOnce)
 {
   const TestFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe.mha").c_str(), 0600), 0);
-  EXPECT_NE(GetError([&] { Open(folder / "pipe.mha"); }).find("not a regular file"), std::string::npos);
-  EXPECT_NE(GetError([&] { Open("/dev/zero"); }).find("not a regular file"), std::string::npos);
+  EXPECT_NE(GetError([&] { Open(folder / "pipe.mha"); }).find("it is a named pipe"), std::string::npos);
+  EXPECT_NE(GetError([&] { Open("/dev/zero"); }).find("it is a device"), std::string::npos);
   EXPECT_NE(GetError([&] { Open(folder / "missing.nrrd"); }).find("No such file"), std::string::npos);
 }
 

@@ -137,7 +137,7 @@ MakeCase(std::mt19937 & random, const char * const scheme, const long longest)
   {
     test.Start[w] = static_cast<long>(random() % 9) - 4;
     test.Size[w] = 1 + static_cast<long>(random() % static_cast<unsigned long>(longest));
-    test.Settings.axes[w] = random() % 4 != 0;
+    test.Settings.axes[w] = random() % 4 != 0 && w < 3; // three axes at most
   }
   const long labels = 2 + static_cast<long>(random() % 4);
   struct Ball

@@ -5,6 +5,7 @@
 #include "array/Arguments.h"
 #include "array/LabelBlock.h"
 #include "array/LabelElection.h"
+#include "array/LabelWriter.h"
 
 #include <algorithm>
 #include <limits>
@@ -22,19 +23,6 @@ namespace
 
 /** Voxels of a block along x, y and z, found by measurement: little halo, and few blocks with more than one label. */
 constexpr std::uint64_t BlockSize[3][3] = { { 4096, 1, 1 }, { 256, 1, 64 }, { 64, 24, 24 } };
-
-template <typename TOut, typename TIn>
-bool
-Fits(const TIn label)
-{
-  // Both comparisons are between numbers of the same sign.
-  if (label < TIn{ 0 })
-  {
-    return std::is_signed<TOut>::value &&
-           static_cast<std::int64_t>(label) >= static_cast<std::int64_t>(std::numeric_limits<TOut>::lowest());
-  }
-  return static_cast<std::uint64_t>(label) <= static_cast<std::uint64_t>(std::numeric_limits<TOut>::max());
-}
 
 /** \throw std::invalid_argument if anything does not fit */
 const Scheme &
@@ -72,20 +60,6 @@ struct LabelSubdivider::Implementation
   bool
   HasOneLabel(const LabelBlockPlace & place, T & label) const;
 
-  /** Calls \c function with a row of the output's elements, their number and stride, and the number of the row's first
-   * child in the block, for all rows of a block's children that are asked for. Returns the number of children. */
-  template <typename TOut, typename TFunction>
-  std::size_t
-  ForEachRow(const LabelBlockPlace & place, const TFunction & function) const;
-
-  template <typename T>
-  std::size_t
-  Fill(const LabelBlockPlace & place, T label) const;
-
-  template <typename T>
-  std::size_t
-  Copy(const LabelBlockPlace & place, const std::vector<T> & labels) const;
-
   std::unique_ptr<Kernel<double>>
   BorrowKernel();
   void
@@ -97,6 +71,7 @@ struct LabelSubdivider::Implementation
   const Options        What;
   const Scheme &       UsedScheme;
   const LabelBlockAxes BlockAxes;
+  const LabelWriter    Writer;
 
   Box                        Parents;
   std::vector<std::uint64_t> Size;   // of a block, along every axis of the array
@@ -116,6 +91,7 @@ LabelSubdivider::Implementation::Implementation(const ConstArrayView & input,
   , What(options)
   , UsedScheme(GetCheckedScheme(input, whole, output, options))
   , BlockAxes(LabelBlockAxes::Choose(options.SubdividedAxes, whole))
+  , Writer(output, BlockAxes)
 {
   this->SplitIntoBlocks();
 }
@@ -216,107 +192,6 @@ LabelSubdivider::Implementation::HasOneLabel(const LabelBlockPlace & place, T & 
   return true;
 }
 
-template <typename TOut, typename TFunction>
-std::size_t
-LabelSubdivider::Implementation::ForEachRow(const LabelBlockPlace & place, const TFunction & function) const
-{
-  TOut *                        data = static_cast<TOut *>(Output.Data);
-  std::array<std::ptrdiff_t, 3> begin{ 0, 0, 0 };   // of the children that are asked for, in the block
-  std::array<std::ptrdiff_t, 3> count{ 1, 1, 1 };   // of those
-  std::array<std::ptrdiff_t, 3> inBlock{ 1, 1, 1 }; // of all children
-  std::array<std::ptrdiff_t, 3> stride{ 0, 0, 0 };
-  for (std::size_t axis = 0; axis < Output.Axes.size(); ++axis)
-  {
-    const ArrayAxis & asked = Output.Axes[axis];
-    const auto        i = std::find(BlockAxes.Number.begin(), BlockAxes.Number.end(), static_cast<int>(axis));
-    if (i == BlockAxes.Number.end())
-    {
-      data += static_cast<std::ptrdiff_t>(place.Position[axis] - asked.First) * asked.Stride;
-      continue;
-    }
-    const auto         tileAxis = i - BlockAxes.Number.begin();
-    const Interval     voxels = place.Voxels[tileAxis];
-    const Interval     children = BlockAxes.IsSubdivided[tileAxis] ? GetChildren(voxels) : voxels;
-    const std::int64_t first = std::max(children.First, asked.First);
-    const std::int64_t last = std::min(children.First + static_cast<std::int64_t>(children.Size - 1),
-                                       asked.First + static_cast<std::int64_t>(asked.Size - 1));
-    begin[tileAxis] = first - children.First;
-    count[tileAxis] = last - first + 1;
-    inBlock[tileAxis] = static_cast<std::ptrdiff_t>(children.Size);
-    stride[tileAxis] = asked.Stride;
-    data += static_cast<std::ptrdiff_t>(first - asked.First) * asked.Stride;
-  }
-  for (std::ptrdiff_t z = 0; z < count[2]; ++z)
-  {
-    for (std::ptrdiff_t y = 0; y < count[1]; ++y)
-    {
-      function(data + z * stride[2] + y * stride[1],
-               count[0],
-               stride[0],
-               ((begin[2] + z) * inBlock[1] + begin[1] + y) * inBlock[0] + begin[0]);
-    }
-  }
-  return static_cast<std::size_t>(count[0] * count[1] * count[2]);
-}
-
-template <typename T>
-std::size_t
-LabelSubdivider::Implementation::Fill(const LabelBlockPlace & place, const T label) const
-{
-  return WithElementType(Output.Type, [&](auto tag) {
-    using OutType = typename decltype(tag)::Type;
-    if (!Fits<OutType>(label))
-    {
-      throw std::range_error("the label " + std::to_string(label) + " does not fit " + GetName(Output.Type));
-    }
-    const auto fill =
-      [label](OutType * const row, const std::ptrdiff_t count, const std::ptrdiff_t stride, std::ptrdiff_t) {
-        if (stride == 1)
-        {
-          std::fill_n(row, count, static_cast<OutType>(label));
-          return;
-        }
-        for (std::ptrdiff_t x = 0; x < count; ++x)
-        {
-          row[x * stride] = static_cast<OutType>(label);
-        }
-      };
-    return this->ForEachRow<OutType>(place, fill);
-  });
-}
-
-template <typename T>
-std::size_t
-LabelSubdivider::Implementation::Copy(const LabelBlockPlace & place, const std::vector<T> & labels) const
-{
-  return WithElementType(Output.Type, [&](auto tag) {
-    using OutType = typename decltype(tag)::Type;
-    const auto range = std::minmax_element(labels.begin(), labels.end());
-    for (const T label : { *range.first, *range.second })
-    {
-      if (!Fits<OutType>(label))
-      {
-        throw std::range_error("the label " + std::to_string(label) + " does not fit " + GetName(Output.Type));
-      }
-    }
-    const auto copy =
-      [&](OutType * const row, const std::ptrdiff_t count, const std::ptrdiff_t stride, const std::ptrdiff_t from) {
-        if (stride == 1)
-        {
-          std::transform(labels.data() + from, labels.data() + from + count, row, [](const T label) {
-            return static_cast<OutType>(label);
-          });
-          return;
-        }
-        for (std::ptrdiff_t x = 0; x < count; ++x)
-        {
-          row[x * stride] = static_cast<OutType>(labels[static_cast<std::size_t>(from + x)]);
-        }
-      };
-    return this->ForEachRow<OutType>(place, copy);
-  });
-}
-
 std::unique_ptr<Kernel<double>>
 LabelSubdivider::Implementation::BorrowKernel()
 {
@@ -360,7 +235,7 @@ LabelSubdivider::Implementation::ComputeBlock(const std::size_t number)
   T                     label{};
   if (this->HasOneLabel(place, label))
   {
-    return this->Fill(place, label);
+    return Writer.Fill(place, label);
   }
   std::vector<T>                   labels;
   std::vector<std::uint8_t>        mixed;
@@ -378,7 +253,7 @@ LabelSubdivider::Implementation::ComputeBlock(const std::size_t number)
     election.Run(*kernel, reach, isExact);
     this->ReturnKernel(std::move(kernel));
   }
-  return this->Copy(place, election.GetWinners());
+  return Writer.Copy(place, election.GetWinners());
 }
 
 Options

@@ -185,6 +185,31 @@ LimitRow(const TField         field,
   }
 }
 
+/** Calls \c use with the place of each vector of a row, some of them at a time: for loops so short that counting costs
+ * as much as what they do. */
+template <typename T, typename TUse>
+SUBDIVISION_INLINE void
+ForEachVectorInRow(const std::ptrdiff_t reach, const std::ptrdiff_t width, const TUse & use)
+{
+  const std::ptrdiff_t lanes = LaneCount<T>();
+  const std::ptrdiff_t end = width + reach;
+  std::ptrdiff_t       x = FirstVector<T>(reach);
+  if constexpr (AreLoopsUnrolled)
+  {
+    for (; x + 3 * lanes < end; x += 4 * lanes)
+    {
+      use(x);
+      use(x + lanes);
+      use(x + 2 * lanes);
+      use(x + 3 * lanes);
+    }
+  }
+  for (; x < end; x += lanes)
+  {
+    use(x);
+  }
+}
+
 /** A copy of a row. */
 template <typename T>
 SUBDIVISION_INLINE void
@@ -193,10 +218,18 @@ CopyRow(const T * const __restrict values,
         const std::ptrdiff_t width,
         T * const __restrict result)
 {
-  for (std::ptrdiff_t x = FirstVector<T>(reach); x < width + reach; x += LaneCount<T>())
-  {
-    Store(Load(values + x), result + x);
-  }
+  ForEachVectorInRow<T>(
+    reach, width, [=](const std::ptrdiff_t x) SUBDIVISION_ATTRIBUTE { Store(Load(values + x), result + x); });
+}
+
+/** Sets a row to a multiple of itself. */
+template <typename T>
+SUBDIVISION_INLINE void
+ScaleRow(const double factor, const std::ptrdiff_t reach, const std::ptrdiff_t width, T * const row)
+{
+  const auto by = Broadcast<T>(factor);
+  ForEachVectorInRow<T>(
+    reach, width, [=](const std::ptrdiff_t x) SUBDIVISION_ATTRIBUTE { Store(Mul(by, Load(row + x)), row + x); });
 }
 
 /** Entries of a ring around one of them: rows of a plane, or rows of planes that lie \c offset values into these. */

@@ -28,6 +28,8 @@ enum class ElementType : std::uint8_t
   Double
 };
 
+inline constexpr std::size_t NumberOfElementTypes = static_cast<std::size_t>(ElementType::Double) + 1;
+
 /** Stands for a type where a type is to be passed as a value. */
 template <typename T>
 struct TypeTag

@@ -33,7 +33,12 @@ class NonOscillatorySubdivision_EXPORT ChildRow
 {
 public:
   /** For the kernel. */
-  ChildRow(const TReal * values, std::size_t size, bool isInterleaved, const Target & target);
+  ChildRow(const TReal * values, std::size_t size, bool isInterleaved, const Target & target)
+    : m_Values(values)
+    , m_Size(size)
+    , m_IsInterleaved(isInterleaved)
+    , m_Target(&target)
+  {}
 
   /** The number of children. */
   std::size_t

@@ -11,18 +11,6 @@ namespace Subdivision
 namespace SUBDIVISION_TARGET
 {
 
-/** Sets a row to a multiple of itself. */
-template <typename T>
-SUBDIVISION_INLINE void
-ScaleRow(const double factor, const std::ptrdiff_t reach, const std::ptrdiff_t width, T * const row)
-{
-  const auto by = Broadcast<T>(factor);
-  for (std::ptrdiff_t x = FirstVector<T>(reach); x < width + reach; x += LaneCount<T>())
-  {
-    Store(Mul(by, Load(row + x)), row + x);
-  }
-}
-
 /** \brief The loop, which all schemes share: reads a plane, advances the stages by it, and now and then writes the
  * children of those planes that are complete.
  *

@@ -152,14 +152,6 @@ Kernel<TReal>::Subdivide(const TileSize & tile, RowSource<TReal> & source, RowSi
 }
 
 template <typename TReal>
-ChildRow<TReal>::ChildRow(const TReal * values, const std::size_t size, const bool isInterleaved, const Target & target)
-  : m_Values(values)
-  , m_Size(size)
-  , m_IsInterleaved(isInterleaved)
-  , m_Target(&target)
-{}
-
-template <typename TReal>
 std::size_t
 ChildRow<TReal>::GetSize() const
 {
@@ -173,11 +165,11 @@ ChildRow<TReal>::CopyTo(const ElementType type, void * const elements) const
   const TargetFunctions<TReal> & functions = m_Target->GetTable().template Get<TReal>();
   if (m_IsInterleaved)
   {
-    functions.InterleaveChildren(type, m_Values, m_Size / Children, elements);
+    ForType(functions.InterleaveChildren, type)(m_Values, m_Size / Children, elements);
   }
   else
   {
-    functions.Narrow(type, m_Values, m_Size, elements);
+    ForType(functions.Narrow, type)(m_Values, m_Size, elements);
   }
 }
 

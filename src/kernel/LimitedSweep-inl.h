@@ -36,14 +36,13 @@ protected:
   void
   Advance(const std::ptrdiff_t n) override
   {
-    // The first planes only fill the rings; what would be computed from them is not used.
-    constexpr std::ptrdiff_t outermost = this->NeededPlane;
     if (!this->HasZ())
     {
       this->AdvanceInPlane(n);
       return;
     }
-    if (n - WindowRadius >= outermost)
+    // The first planes only fill the rings; what would be computed from them is not used.
+    if (n - WindowRadius >= NeededPlane)
     {
       this->AdvanceInPlane(n - WindowRadius);
     }

@@ -4,6 +4,7 @@
 
 #include "NonOscillatorySubdivision/Kernel.h"
 
+#include <array>
 #include <cstddef>
 
 namespace itk
@@ -34,15 +35,27 @@ public:
   Subdivide(const TileSize & tile, RowSource<T> & source, RowSink<T> & sink) = 0;
 };
 
-/** What a target makes and does, for one real type. */
+/** What a target makes and does, for one real type; conversions by the type of the elements. */
 template <typename T>
 struct TargetFunctions
 {
+  using FromElements = void (*)(const void *, std::size_t, T *);
+  using ToElements = void (*)(const T *, std::size_t, void *);
+
   Sweep<T> * (*MakeSweep)(const SweepSettings &);
-  void (*Widen)(ElementType, const void *, std::size_t, T *);
-  void (*Narrow)(ElementType, const T *, std::size_t, void *);
-  void (*InterleaveChildren)(ElementType, const T *, std::size_t, void *);
+  std::array<FromElements, NumberOfElementTypes> Widen;
+  std::array<ToElements, NumberOfElementTypes>   Narrow;
+  std::array<ToElements, NumberOfElementTypes>   InterleaveChildren;
 };
+
+/** The function for an element type.
+ * \throw std::out_of_range */
+template <typename TFunction>
+const TFunction &
+ForType(const std::array<TFunction, NumberOfElementTypes> & functions, const ElementType type)
+{
+  return functions.at(static_cast<std::size_t>(type));
+}
 
 /** What Target hides. */
 struct TargetTable

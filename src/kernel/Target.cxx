@@ -84,7 +84,7 @@ template <typename TReal>
 void
 Target::Widen(const ElementType type, const void * elements, const std::size_t count, TReal * values) const
 {
-  m_Table->Get<TReal>().Widen(type, elements, count, values);
+  ForType(m_Table->Get<TReal>().Widen, type)(elements, count, values);
 }
 
 template NonOscillatorySubdivision_EXPORT void

@@ -11,37 +11,42 @@ namespace Subdivision
 namespace SUBDIVISION_TARGET
 {
 
-template <typename T>
+template <typename TElement, typename T>
 void
-Widen(const ElementType type, const void * const elements, const std::size_t count, T * const values)
+Widen(const void * const elements, const std::size_t count, T * const values)
 {
-  WithElementType(type, [=](const auto tag) {
-    WidenElements(static_cast<const typename decltype(tag)::Type *>(elements), count, values);
-  });
+  WidenElements(static_cast<const TElement *>(elements), count, values);
 }
 
-template <typename T>
+template <typename TElement, typename T>
 void
-Narrow(const ElementType type, const T * const values, const std::size_t count, void * const elements)
+Narrow(const T * const values, const std::size_t count, void * const elements)
 {
-  WithElementType(
-    type, [=](const auto tag) { NarrowValues(values, count, static_cast<typename decltype(tag)::Type *>(elements)); });
+  NarrowValues(values, count, static_cast<TElement *>(elements));
 }
 
-template <typename T>
+template <typename TElement, typename T>
 void
-Interleave(const ElementType type, const T * const children, const std::size_t count, void * const elements)
+Interleave(const T * const children, const std::size_t count, void * const elements)
 {
-  WithElementType(type, [=](const auto tag) {
-    InterleaveChildren(children, count, static_cast<typename decltype(tag)::Type *>(elements));
-  });
+  InterleaveChildren(children, count, static_cast<TElement *>(elements));
 }
 
 template <typename T>
 constexpr TargetFunctions<T>
 MakeFunctions()
 {
-  return { &MakeSweep<T>, &Widen<T>, &Narrow<T>, &Interleave<T> };
+  TargetFunctions<T> functions{ &MakeSweep<T>, {}, {}, {} };
+  for (std::size_t type = 0; type < NumberOfElementTypes; ++type)
+  {
+    WithElementType(static_cast<ElementType>(type), [&functions, type](const auto tag) {
+      using Element = typename decltype(tag)::Type;
+      functions.Widen[type] = &Widen<Element, T>;
+      functions.Narrow[type] = &Narrow<Element, T>;
+      functions.InterleaveChildren[type] = &Interleave<Element, T>;
+    });
+  }
+  return functions;
 }
 
 constexpr TargetTable

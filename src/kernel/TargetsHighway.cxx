@@ -36,9 +36,9 @@ int           NumberOfGeneratedTargets = 0;
 bool
 RegisterTarget(const std::int64_t bit, const TargetTable & target)
 {
-  if (bit == HWY_SCALAR)
+  if (bit == HWY_SCALAR || bit == HWY_EMU128)
   {
-    // The portable target, whose loops the compiler vectorises, is faster.
+    // The portable target, whose loops the compiler vectorises, is faster than vectors that are emulated.
     return false;
   }
   GeneratedTargets[NumberOfGeneratedTargets] = target;

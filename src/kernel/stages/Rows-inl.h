@@ -119,7 +119,8 @@ WindowMinimumRow(const TSums sums, const std::ptrdiff_t reach, const std::ptrdif
   }
 }
 
-/** A field of second differences (of curvature along the axes that it was taken along so far) along one axis more. */
+/** The second differences of a row along one axis: G of an axis, or of one axis more, where the values are G already.
+ */
 template <typename T, typename TValues>
 SUBDIVISION_INLINE void
 SecondDifferenceRow(const TValues        values,
@@ -133,16 +134,16 @@ SecondDifferenceRow(const TValues        values,
   }
 }
 
-/** A value limited to +- tension times the threshold; unlimited where the threshold is NaN. */
+/** E: G limited to +-K, which is the tension times the least variation; unlimited where that is NaN. */
 template <typename TVector>
 SUBDIVISION_INLINE TVector
-Limit(const TVector value, const TVector tension, const TVector threshold)
+Limit(const TVector difference, const TVector tension, const TVector leastVariation)
 {
-  const TVector bound = Mul(tension, threshold);
-  return OrderedMin(bound, OrderedMax(Neg(bound), value));
+  const TVector bound = Mul(tension, leastVariation);
+  return OrderedMin(bound, OrderedMax(Neg(bound), difference));
 }
 
-/** A field that is the values of a row themselves. */
+/** Differences that are kept in a row. */
 template <typename T>
 struct RowValues
 {
@@ -155,7 +156,7 @@ struct RowValues
   }
 };
 
-/** A field that is the second differences along x of a row. */
+/** Differences that are taken along x of a row as they are needed. */
 template <typename T>
 struct SecondDifferencesAlongX
 {
@@ -168,11 +169,11 @@ struct SecondDifferencesAlongX
   }
 };
 
-/** A field limited by the window minimum of the sums. */
-template <typename T, typename TField, typename TSums>
+/** E of a row: its differences G limited by the least of the variations H in the window. */
+template <typename T, typename TDifferences, typename TVariation>
 SUBDIVISION_INLINE void
-LimitRow(const TField         field,
-         const TSums          sums,
+LimitRow(const TDifferences   differences,
+         const TVariation     variation,
          const double         tension,
          const std::ptrdiff_t reach,
          const std::ptrdiff_t width,
@@ -181,7 +182,32 @@ LimitRow(const TField         field,
   const auto factor = Broadcast<T>(tension);
   for (std::ptrdiff_t x = FirstVector<T>(reach); x < width + reach; x += LaneCount<T>())
   {
-    Store(Limit(field(x), factor, WindowMinimum(sums, x)), result + x);
+    Store(Limit(differences(x), factor, WindowMinimum(variation, x)), result + x);
+  }
+}
+
+/** Calls \c use with the place of each vector of a row, some of them at a time: for loops so short that counting costs
+ * as much as what they do. */
+template <typename T, typename TUse>
+SUBDIVISION_INLINE void
+ForEachVectorInRow(const std::ptrdiff_t reach, const std::ptrdiff_t width, const TUse & use)
+{
+  const std::ptrdiff_t lanes = LaneCount<T>();
+  const std::ptrdiff_t end = width + reach;
+  std::ptrdiff_t       x = FirstVector<T>(reach);
+  if constexpr (AreLoopsUnrolled)
+  {
+    for (; x + 3 * lanes < end; x += 4 * lanes)
+    {
+      use(x);
+      use(x + lanes);
+      use(x + 2 * lanes);
+      use(x + 3 * lanes);
+    }
+  }
+  for (; x < end; x += lanes)
+  {
+    use(x);
   }
 }
 
@@ -193,10 +219,18 @@ CopyRow(const T * const __restrict values,
         const std::ptrdiff_t width,
         T * const __restrict result)
 {
-  for (std::ptrdiff_t x = FirstVector<T>(reach); x < width + reach; x += LaneCount<T>())
-  {
-    Store(Load(values + x), result + x);
-  }
+  ForEachVectorInRow<T>(
+    reach, width, [=](const std::ptrdiff_t x) SUBDIVISION_ATTRIBUTE { Store(Load(values + x), result + x); });
+}
+
+/** Sets a row to a multiple of itself. */
+template <typename T>
+SUBDIVISION_INLINE void
+ScaleRow(const double factor, const std::ptrdiff_t reach, const std::ptrdiff_t width, T * const row)
+{
+  const auto by = Broadcast<T>(factor);
+  ForEachVectorInRow<T>(
+    reach, width, [=](const std::ptrdiff_t x) SUBDIVISION_ATTRIBUTE { Store(Mul(by, Load(row + x)), row + x); });
 }
 
 /** Entries of a ring around one of them: rows of a plane, or rows of planes that lie \c offset values into these. */

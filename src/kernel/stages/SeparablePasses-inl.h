@@ -55,6 +55,7 @@ FilterRow(const TValues            values,
   const auto secondOdd = Broadcast<T>(masks.SecondDifferences.Odd[0]);
   const auto secondOuter = Broadcast<T>(masks.SecondDifferences.Outer);
 
+  SUBDIVISION_INDEPENDENT
   for (std::ptrdiff_t x = FirstVector<T>(reach); x < width + reach; x += LaneCount<T>())
   {
     const auto before2 = KeepInRegister(values(x, -2));

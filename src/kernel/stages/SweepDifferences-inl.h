@@ -117,6 +117,10 @@ public:
     {
       this->FindVariation(shape, r);
     }
+    if (n < FirstVariation)
+    {
+      return;
+    }
     if constexpr (VX)
     {
       if (HasRowWithoutY<VY>(shape, r))
@@ -168,6 +172,9 @@ public:
   }
 
 private:
+  /** The first pair of planes only leaves parts of the variations that the next one completes. */
+  static constexpr std::ptrdiff_t FirstVariation = 2;
+
   /** Of a subset, what windows of five planes need to know of the last four, pair k being planes n - 1 and n with k =
    * n / 2: the minima of either pair, and the later plane of either. */
   struct Window

@@ -61,7 +61,7 @@ WidenElements(const TElement * in, std::size_t count, T * out)
 {
   if constexpr (std::is_same<TElement, T>::value)
   {
-    std::memcpy(out, in, count * sizeof(T));
+    std::copy_n(in, count, out);
   }
   else
   {
@@ -163,7 +163,7 @@ NarrowValues(const T * values, std::size_t count, TElement * out)
 {
   if constexpr (std::is_same<TElement, T>::value)
   {
-    std::memcpy(out, values, count * sizeof(T));
+    std::copy_n(values, count, out);
   }
   else
   {

@@ -4,6 +4,7 @@
 // own namespace.
 
 #define SUBDIVISION_INLINE HWY_INLINE
+#define SUBDIVISION_INDEPENDENT
 
 namespace itk
 {
@@ -12,6 +13,9 @@ namespace Subdivision
 namespace HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
+
+/** Whether loops over rows take several vectors at a time, where that saves counting. */
+constexpr bool AreLoopsUnrolled = true;
 
 template <typename T>
 using Tag = hn::ScalableTag<T>;

@@ -12,12 +12,24 @@
 
 #define SUBDIVISION_INLINE inline
 
+// Before a loop whose stores never touch what it loads. Compilers vectorise it only if they are told, since they cannot
+// check all its rows against each other.
+#if defined(__GNUC__) && !defined(__clang__)
+#  define SUBDIVISION_INDEPENDENT _Pragma("GCC ivdep")
+#else
+#  define SUBDIVISION_INDEPENDENT
+#endif
+
 namespace itk
 {
 namespace Subdivision
 {
 namespace SUBDIVISION_TARGET
 {
+
+/** Whether loops over rows take several vectors at a time, where that saves counting. Compilers do it by themselves
+ * where they vectorise. */
+constexpr bool AreLoopsUnrolled = false;
 
 template <typename T>
 using Vector = T;

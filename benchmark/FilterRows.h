@@ -146,15 +146,19 @@ MakeFilterRows(bool withWindowedSinc)
 
   // The fewest lane operations an input voxel. The linear scheme: 6 taps for each of the 2, 4 and 8 values that the
   // passes along z, y and x make. The bound: minimum and maximum of 3 along 3 axes, and a clamp of 8 children. The
-  // non-oscillatory scheme: 7 thresholded fields (about 100 operations), then 10 taps for each of 8 values a pass.
+  // non-oscillatory scheme: 7 thresholded fields (about 100 operations), then 10 taps for each of 8 values a pass. The
+  // restored scheme: the linear passes twice, P f (2 Laplacians of 7 taps), the bound, T (6 differences, least and
+  // greatest of 5 along 3 axes) and a second clamp of 8 children.
   constexpr double linear = 6 * (2 + 4 + 8);
   constexpr double bound = 2 * 2 * 3 + 2 * 8;
   constexpr double nonOscillatory = 100 + 10 * (8 + 8 + 8);
+  constexpr double restored = 2 * linear + 2 * 7 + bound + 3 * 6 + 2 * 4 * 3 + 3 * 8;
 
   std::vector<BenchmarkRow> rows{ SubdivisionRow<ImageType>("NonOscillatory", Scheme::NonOscillatory, nonOscillatory),
                                   SubdivisionRow<ImageType>("Linear", Scheme::Linear, linear),
                                   SubdivisionRow<ImageType>("BoundedLinear", Scheme::BoundedLinear, linear + bound),
                                   SubdivisionRow<ImageType>("BSpline", Scheme::BSpline, linear),
+                                  SubdivisionRow<ImageType>("Restored", Scheme::Restored, restored),
                                   ExpandRow<ImageType, itk::LinearInterpolateImageFunction>("ExpandLinear"),
                                   ExpandRow<ImageType, itk::NearestNeighborInterpolateImageFunction>("ExpandNearest"),
                                   ResampleLinearRow<ImageType>(),

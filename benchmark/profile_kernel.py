@@ -16,15 +16,16 @@ from pathlib import Path
 
 # An instruction belongs to the stage of the innermost function, inlined or not, that is named here.
 STAGES = {
-    "gather": r"SubdivisionTileReader|::ConvertRow",
-    "scatter": r"SubdivisionTileWriter|InterleaveChildren|StreamPastCache|::CopyLines",
-    "bounds": r"::AdvanceNeighbours|::FindBounds|::BoundChildren",
-    "pass along lanes": r"itk::\w+::ComputeChildren",
-    "pass across rows": r"::FilterFields|::AdvanceValues",
-    "thresholds": r"::Limit(Flat|Steep)Fields|::AdvanceSlopes",
-    "pass across planes": r"itk::\w+::ComputeRow",
-    "sweep": r"::AdvanceFlatFields|::AdvanceSteepFields|::AdvancePlane|SubdivisionKernel<",
-    "tiles": r"NonOscillatorySubdivisionImageFilter",
+    "read rows": r"RowReader|::Widen|::ScaleRow",
+    "write rows": r"RowWriter|InterleaveChildren|NonTemporalWriter|::CopyLines",
+    "local range": r"LocalRange|::Bound\b",
+    "restoration": r"Restoration|Sharpening|Restore\b",
+    "pass along x": r"::FilterAlongX",
+    "pass along y": r"::FilterAlongY",
+    "limited differences": r"InPlaneDifferences|SweepDifferences",
+    "pass along z": r"::FilterAlongZ",
+    "sweep": r"\w+Sweep<",
+    "tiles": r"Subdivider|SubdivisionProgress",
 }
 ELSEWHERE = "elsewhere"
 LANES = {"zmm": 16, "ymm": 8, "xmm": 4}

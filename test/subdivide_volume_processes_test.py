@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""SubdivideVolume --piece: one output made by many processes. The environment variable SUBDIVIDE_VOLUME holds the path of
-the program."""
+"""SubdivideVolume --piece: one output made by many processes. The environment variable SUBDIVIDE_VOLUME holds the path
+of the program."""
 
 import hashlib
 import json
@@ -233,6 +233,19 @@ class Processes(ProgramTest):
             self.assertEqual(result.returncode, 2)
             self.assertIn("--piece", result.stderr)
 
+    def test_under_mpirun(self):
+        write_meta(self.path("in.mha"), [20, 18, 16], "h", noise(5760))
+        whole = self.meta("in.mha", "whole.mha").data
+        command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "3", PROGRAM, "--piece", "rank", "--threads",
+                   "1", self.path("in.mha"), self.path("out.mha")]
+        try:
+            result = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+        except FileNotFoundError:
+            self.skipTest("for want of mpirun")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn(f"complete {self.path('out.mha')}\n", result.stdout)
+        self.assertTrue(Meta(self.path("out.mha")).data == whole)
+
     def test_what_is_refused(self):
         write_meta(self.path("in.mha"), [9, 8, 7], "H", noise(504))
         files = [self.path("in.mha"), self.path("out.mha")]
@@ -240,6 +253,7 @@ class Processes(ProgramTest):
             self.assert_fails(self.piece(piece, *files), 2, "--piece")
         self.assert_fails(self.piece("1/2", *files, "--compress"), 2, "compressed")
         self.assert_fails(self.piece("1/2", *files, "--info"), 2, "--piece")
+        self.assert_fails(self.piece("1/2", files[0], files[0]), 1, "the input")
         for name in ("out.nii", "out.tif", "out"):
             self.assert_fails(self.piece("1/2", files[0], self.path(name)), 1, ".nhdr")
         with open(self.path("two.raw"), "wb") as file:

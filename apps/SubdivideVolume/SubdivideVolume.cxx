@@ -217,6 +217,13 @@ SubdividePiece(const Options & options)
   CheckFolders(options);
   const auto writer =
     CreatePieceWriter(options.Output, options.Writing, [&warnings](const std::string & text) { warnings.Add(text); });
+  std::error_code error;
+  if (fs::equivalent(options.Input, writer->GetOutput(), error))
+  {
+    throw std::runtime_error("cannot write " + options.Output +
+                             ": it is the input, of which a piece that is run again would make another; name another "
+                             "output");
+  }
   LevelChain chain(reader->GetDescription(), options, threads);
   writer->Begin(chain.GetOutput());
   PieceFolder folder(writer->GetOutput(), options.Piece.Pieces);
@@ -230,7 +237,7 @@ SubdividePiece(const Options & options)
   catch (const std::exception &)
   {
     // Another process that makes the same piece may have been faster, so that what this one writes into is gone.
-    isComplete = folder.IsFinished();
+    isComplete = folder.IsFinishedByAnother();
     if (!isComplete)
     {
       throw;

@@ -23,11 +23,19 @@ InMegabytes(std::uint64_t bytes)
 {
   return std::to_string(bytes / 1000000) + " MB";
 }
+
+int
+GetFlags(const OutputFile::Opening opening)
+{
+  // Where other machines write other parts of the file, NFS must not write whole pages, with what it took for theirs;
+  // with synchronous writes, it does not.
+  return opening == OutputFile::Opening::New ? O_CREAT | O_EXCL : O_DSYNC;
+}
 } // namespace
 
 OutputFile::OutputFile(const std::string & path, const std::string & meant, const Opening opening)
   : m_Meant(meant)
-  , m_Descriptor(open(path.c_str(), O_WRONLY | O_CLOEXEC | (opening == Opening::New ? O_CREAT | O_EXCL : 0), 0666))
+  , m_Descriptor(open(path.c_str(), O_WRONLY | O_CLOEXEC | GetFlags(opening), 0666))
 {
   if (m_Descriptor < 0)
   {

@@ -267,6 +267,13 @@ PieceFolder::IsFinished() const
 }
 
 bool
+PieceFolder::IsFinishedByAnother() const
+{
+  static_cast<void>(flock(m_Agreement, LOCK_EX)); // see Finish()
+  return this->IsFinished();
+}
+
+bool
 PieceFolder::Finish(const PieceWriter & writer)
 {
   if (!this->FindMissing().empty())

@@ -60,9 +60,13 @@ public:
   bool
   Finish(const PieceWriter & writer);
 
-  /** Whether another process has given the output its name meanwhile. */
+  /** Whether the output has its name. */
   bool
   IsFinished() const;
+
+  /** The same, once no other process is about to give it. */
+  bool
+  IsFinishedByAnother() const;
 
 private:
   bool

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FileIntegrity.h"
 #include "MetaImageIntegrity.h"
+#include "NiftiFiles.h"
 
 #include "itkStreamingImageIOBase.h"
 #include "itk_zlib.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -109,6 +111,13 @@ public:
     return m_IsComplete && std::memcmp(m_Header.data() + 344, "n+1", 3) == 0;
   }
 
+  /** Whether it is a header of version 1 or of Analyze at all: both start with their size. */
+  bool
+  IsOfPair() const
+  {
+    return m_IsComplete && this->GetShort(m_IsSwapped ? 2 : 0) == static_cast<int>(Size);
+  }
+
   std::uint64_t
   GetDataBytes() const
   {
@@ -135,8 +144,27 @@ private:
 };
 
 void
+CheckNiftiPair(const std::string & path)
+{
+  const NiftiPair   files = FindNiftiPair(path);
+  Bytes             start(files.Header);
+  const NiftiHeader header(start);
+  if (header.IsOfPair())
+  {
+    Bytes bytes(files.Voxels);
+    CheckBytes(files.Voxels, bytes.Skip(header.GetDataBytes()), header.GetDataBytes());
+    CheckEnd(files.Voxels, bytes);
+  }
+}
+
+void
 CheckNifti(const std::string & path)
 {
+  if (IsNiftiPair(path))
+  {
+    CheckNiftiPair(path);
+    return;
+  }
   Bytes             bytes(path);
   const NiftiHeader header(bytes);
   if (header.IsSingleFile())
@@ -215,6 +243,27 @@ CheckLastVoxel(const std::string & path, itk::ImageIOBase & imageIO)
 } // namespace
 
 void
+CheckTextIsWhole(const std::string & path, const itk::ImageIOBase & imageIO)
+{
+  const auto    expected = static_cast<std::uint64_t>(imageIO.GetImageSizeInComponents());
+  std::uint64_t count = 0;
+  std::uint64_t most = 0; // numbers in a row, between the words of the header and those after the voxels
+  std::ifstream file(path, std::ios::binary);
+  for (std::string word; most < expected && file >> word;)
+  {
+    char * end = nullptr;
+    std::strtod(word.c_str(), &end);
+    count = *end == '\0' ? count + 1 : 0;
+    most = std::max(most, count);
+  }
+  if (most < expected)
+  {
+    throw std::runtime_error("cannot read " + path + ": it is truncated, with " + std::to_string(most) + " of " +
+                             std::to_string(expected) + " numbers");
+  }
+}
+
+void
 CheckFileIsWhole(const std::string & path, itk::ImageIOBase & imageIO)
 {
   const std::string format = imageIO.GetNameOfClass();
@@ -242,6 +291,10 @@ CheckFileIsWhole(const std::string & path, itk::ImageIOBase & imageIO)
            imageIO.GetFileType() != itk::IOFileEnum::ASCII)
   {
     CheckLastVoxel(path, imageIO);
+  }
+  else if (format == "VTKImageIO" && imageIO.GetFileType() == itk::IOFileEnum::ASCII)
+  {
+    CheckTextIsWhole(path, imageIO);
   }
 }
 

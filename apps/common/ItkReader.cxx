@@ -4,6 +4,7 @@
 #include "FileIntegrity.h"
 #include "HeaderText.h"
 #include "InputFile.h"
+#include "NiftiFiles.h"
 #include "OneLineMessage.h"
 #include "PixelComponent.h"
 
@@ -134,23 +135,6 @@ IsWhole(const std::vector<std::uint64_t> & size, const Box & box)
 }
 } // namespace
 
-bool
-HasNiftiEndingInMixedCase(const std::string & path)
-{
-  const std::string name = std::filesystem::path(path).filename().string();
-  const std::string small = ToLower(name);
-  for (const std::string ending : { ".nii.gz", ".img.gz", ".nii", ".hdr", ".img" })
-  {
-    const std::size_t length = ending.size();
-    if (name.size() > length && small.compare(small.size() - length, length, ending) == 0)
-    {
-      const std::string last = name.substr(name.size() - length);
-      return last != ending && std::any_of(last.begin(), last.end(), [](char c) { return c >= 'a' && c <= 'z'; });
-    }
-  }
-  return false;
-}
-
 std::string
 GetReason(const std::exception & error)
 {
@@ -161,6 +145,10 @@ GetReason(const std::exception & error)
 ItkReader::ItkReader(const std::string & path)
   : m_Path(path)
 {
+  if (IsNiftiPair(path))
+  {
+    FindNiftiPair(path); // says which file of the two is not there
+  }
   InputFile{ path }; // says why it cannot be opened, and keeps pipes from being waited for
   m_ImageIO = itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::IOFileModeEnum::ReadMode);
   const std::string ending = std::filesystem::path(path).extension().string();
@@ -170,15 +158,18 @@ ItkReader::ItkReader(const std::string & path)
   }
   if (m_ImageIO.IsNull())
   {
-    FailToRead(path,
-               HasNiftiEndingInMixedCase(path)
-                 ? "NIfTI files' endings are in small letters or in capitals, not in both; rename it"
-                 : "it is in none of the known image formats, which SubdivideVolume --formats lists; --raw reads voxels "
-                   "without a header");
+    FailToRead(
+      path,
+      HasNiftiEndingInMixedCase(path)
+        ? "NIfTI files' endings are in small letters or in capitals, not in both; rename it"
+        : "it is in none of the known image formats, which SubdivideVolume --formats lists; --raw reads voxels "
+          "without a header");
   }
+  const std::string mistaken = GetMistakenNiftiEnding(path);
+  m_Links = mistaken.empty() ? nullptr : LinkFolder::Get();
   try
   {
-    m_ImageIO->SetFileName(path);
+    m_ImageIO->SetFileName(m_Links == nullptr ? path : m_Links->Link(path, mistaken));
     m_ImageIO->ReadImageInformation();
   }
   catch (const itk::ExceptionObject & error)

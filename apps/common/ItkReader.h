@@ -2,10 +2,12 @@
 #ifndef ItkReader_h
 #define ItkReader_h
 
+#include "LinkFolder.h"
 #include "VolumeReader.h"
 
 #include "itkImageIOBase.h"
 
+#include <memory>
 #include <vector>
 
 /** Reads an image file of any format that ITK reads. */
@@ -28,15 +30,12 @@ private:
   void
   ReadRegion(const itk::Subdivision::Box & box, void * voxels);
 
-  std::string               m_Path;
-  itk::ImageIOBase::Pointer m_ImageIO; // has read the header
-  bool                      m_ReadsParts;
-  std::vector<char>         m_Whole;
+  std::string                 m_Path;
+  std::shared_ptr<LinkFolder> m_Links;   // where the file is opened by a link
+  itk::ImageIOBase::Pointer   m_ImageIO; // has read the header
+  bool                        m_ReadsParts;
+  std::vector<char>           m_Whole;
 };
-
-/** Whether a name has an ending of NIfTI that is neither in small letters nor in capitals: its library knows no other. */
-bool
-HasNiftiEndingInMixedCase(const std::string & path);
 
 /** What an exception says, less the place in the code that ITK's exceptions name. */
 std::string

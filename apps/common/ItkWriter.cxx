@@ -5,6 +5,7 @@
 #include "InputFile.h"
 #include "ItkReader.h"
 #include "Metadata.h"
+#include "NiftiFiles.h"
 #include "OutputFile.h"
 #include "ParallelDeflate.h"
 #include "PixelComponent.h"

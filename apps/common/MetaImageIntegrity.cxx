@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MetaImageIntegrity.h"
+#include "FileIntegrity.h"
 
 #include "itkMetaImageIO.h"
 #include "itk_zlib.h"
@@ -70,9 +71,9 @@ CheckMetaImageIsWhole(const std::string & path, itk::ImageIOBase & imageIO)
   const MetaImage & image = *dynamic_cast<itk::MetaImageIO &>(imageIO).GetMetaImagePointer();
   const std::string dataName = image.ElementDataFileName();
   const bool        severalFiles = dataName.rfind("LIST", 0) == 0 || dataName.find('%') != std::string::npos;
-  if (severalFiles || !image.BinaryData())
+  if (severalFiles)
   {
-    return; // read file by file, or number by number
+    return; // read file by file
   }
   const bool      local = dataName == "LOCAL" || dataName == "Local" || dataName == "local";
   const fs::path  data = local ? fs::path(path) : fs::path(path).parent_path() / dataName;
@@ -81,6 +82,11 @@ CheckMetaImageIsWhole(const std::string & path, itk::ImageIOBase & imageIO)
   if (error)
   {
     throw std::runtime_error("cannot read " + data.string() + ": " + error.message());
+  }
+  if (!image.BinaryData())
+  {
+    CheckTextIsWhole(data.string(), imageIO);
+    return;
   }
   const std::uint64_t offset = image.HeaderSize() > 0 ? image.HeaderSize() : local ? GetHeaderSize(path) : 0;
   const std::uint64_t available = fileSize > offset ? fileSize - offset : 0;

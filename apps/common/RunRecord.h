@@ -52,6 +52,7 @@ struct RunRecord
 {
   SharedMutex                Interrupts;        // held while no interrupt may come
   SharedText                 TemporaryFolder;   // to be removed whatever happens
+  SharedText                 LinkFolder;        // likewise
   SharedText                 UnfinishedOutput;  // that is written there
   SharedText                 Task;              // how a message starts if the run dies: "cannot read a.dcm"
   std::atomic<std::uint64_t> Steps{ 0 };        // that have been made in opening

@@ -106,6 +106,11 @@ TemporaryFolder::TemporaryFolder(const fs::path & output, const WarningSink & wa
   : m_Output(ResolveOutput(output))
 {
   std::error_code error;
+  const long      longest = pathconf(m_Output.parent_path().c_str(), _PC_NAME_MAX);
+  if (longest > 0 && m_Output.filename().string().size() > static_cast<std::size_t>(longest))
+  {
+    Fail(output, ENAMETOOLONG);
+  }
   if (fs::is_directory(m_Output, error))
   {
     Fail(output, EISDIR);

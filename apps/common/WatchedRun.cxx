@@ -200,13 +200,15 @@ WaitForChild(pid_t child, const sigset_t & endingSignals, double longestOpening)
 }
 
 void
-RemoveTemporaryFolder()
+RemoveTemporaryFolders()
 {
-  const std::string folder = GetRunRecord().TemporaryFolder.Get();
-  std::error_code   error;
-  if (!folder.empty())
+  for (const std::string & folder : { GetRunRecord().TemporaryFolder.Get(), GetRunRecord().LinkFolder.Get() })
   {
-    std::filesystem::remove_all(folder, error);
+    std::error_code error;
+    if (!folder.empty())
+    {
+      std::filesystem::remove_all(folder, error);
+    }
   }
 }
 
@@ -266,7 +268,7 @@ RunWatched(const std::function<int()> & run, double longestOpening)
     RunInChild(run, watcher, mask);
   }
   const Ending ending = WaitForChild(child, endingSignals, longestOpening);
-  RemoveTemporaryFolder();
+  RemoveTemporaryFolders();
   if (ending.Interrupt)
   {
     DieOf(*ending.Interrupt);

@@ -125,4 +125,14 @@ TEST(Boundary, RefusesNothing)
   EXPECT_THROW(Boundary::Custom(nullptr), std::invalid_argument);
 }
 
+TEST(Boundary, RefusesEmptyArrays)
+{
+  for (const Boundary & boundary : { Boundary::Nearest(), Boundary::Mirror(), Boundary::Periodic() })
+  {
+    EXPECT_THROW(boundary.MapIndex(3, 0), std::invalid_argument);
+    EXPECT_THROW(boundary.GetRequest({ 3, 4 }, { 0, 0 }), std::invalid_argument);
+    EXPECT_THROW(boundary.GetRequest({ 3, 0 }, { 0, 4 }), std::invalid_argument);
+  }
+}
+
 } // namespace

@@ -129,6 +129,10 @@ TYPED_TEST(SubdivisionKernel, RefusesWhatItCannotDo)
   EXPECT_THROW(Tested(Schemes[4], std::numeric_limits<double>::infinity(), all, size), std::invalid_argument);
   EXPECT_THROW(Tested(Schemes[0], 2, { false, false, false }, size), std::invalid_argument);
   EXPECT_THROW(Tested(Schemes[0], 2, all, { 4, 0, 4 }), std::invalid_argument);
+  // Sizes in bytes that overflow would be little memory.
+  constexpr std::size_t huge = std::numeric_limits<std::size_t>::max() / 4 + 1;
+  EXPECT_THROW(Tested(Schemes[0], 2, all, { huge, 4, 4 }), std::invalid_argument);
+  EXPECT_THROW(Tested(Schemes[0], 2, all, { 4, huge, 4 }), std::invalid_argument);
   EXPECT_NO_THROW(Tested(Schemes[4], 0, all, size));
 
   Tested kernel(Schemes[1], 2, all, size);

@@ -48,12 +48,14 @@ public:
   bool
   MapsIndices() const;
 
-  /** The index within [0, size) whose element stands at an index outside; only if MapsIndices(). */
+  /** The index within [0, size) whose element stands at an index outside; only if MapsIndices().
+   * \throw std::invalid_argument if there is none, since size is less than 1 */
   std::int64_t
   MapIndex(std::int64_t index, std::int64_t size) const;
 
   /** The part of an array's interval \c whole that is read for the elements of \c stencil, some of which may lie
-   * outside. For Custom, all of \c whole if any lies outside. Never empty. */
+   * outside. For Custom, all of \c whole if any lies outside. Never empty.
+   * \throw std::invalid_argument if one of the intervals is empty */
   Interval
   GetRequest(const Interval & stencil, const Interval & whole) const;
 

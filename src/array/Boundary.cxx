@@ -4,6 +4,7 @@
 #include "array/CheckedArithmetic.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace itk
@@ -86,6 +87,10 @@ Boundary::MapsIndices() const
 std::int64_t
 Boundary::MapIndex(const std::int64_t index, const std::int64_t size) const
 {
+  if (size < 1)
+  {
+    throw std::invalid_argument("no index of an empty array stands for one outside");
+  }
   switch (m_Kind)
   {
     case Kind::Mirror:
@@ -104,6 +109,10 @@ Boundary::MapIndex(const std::int64_t index, const std::int64_t size) const
 Interval
 Boundary::GetRequest(const Interval & stencil, const Interval & whole) const
 {
+  if (stencil.Size == 0 || whole.Size == 0)
+  {
+    throw std::invalid_argument("nothing is requested for an empty stencil, or of an empty array");
+  }
   const std::int64_t size = CheckedSigned(whole.Size);
   const std::int64_t first = CheckedSubtract(stencil.First, whole.First);
   const std::int64_t last = CheckedSubtract(GetLast(stencil), whole.First);

@@ -4,6 +4,7 @@
 #include "kernel/Sweep.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
@@ -96,9 +97,16 @@ MakeSettings(const Scheme &   scheme,
   }
   const bool hasY = subdivided.Y && subdivided.Z;
   const Axes axes{ subdivided.X, hasY, subdivided.Y || subdivided.Z };
+  // No memory holds planes of more, and their sizes in bytes could overflow.
+  constexpr std::uint64_t most = std::uint64_t{ 1 } << 40;
+  const std::size_t       height = hasY ? largest.Y : 1;
+  if (largest.X > most || height > most / largest.X)
+  {
+    throw std::invalid_argument("a kernel's largest tile has more than 2^40 voxels in a plane");
+  }
   // An infinite product with a threshold of 0 would not be 0.
   const double finite = std::min<double>(tension, std::numeric_limits<TReal>::max());
-  return { scheme, finite, axes, largest.X, hasY ? largest.Y : 1, &target };
+  return { scheme, finite, axes, largest.X, height, &target };
 }
 
 } // namespace

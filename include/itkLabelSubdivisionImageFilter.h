@@ -17,11 +17,13 @@ namespace itk
  *
  * Each label's indicator, 1 where a pixel has the label and 0 elsewhere, is subdivided by Scheme: that is the label's
  * vote on a child. The largest vote wins; ties go to the label of the parent, then to the lowest (docs/scheme.md,
- * section 6). The scheme is Restored, the default with a Tension of 0, BSpline or Linear; others are refused on update.
+ * section 6). The scheme is Restored, the default with a Tension of 0, or BSpline or Linear, which ignore the Tension;
+ * others are refused on update.
  *
- * Pixels are integers of 8 to 64 bits; if those of the output have another type, every label must fit it. Geometry,
- * axes, boundary conditions, streaming, threads and progress are those of NonOscillatorySubdivisionImageFilter. The
- * result depends on the input and the options alone, not even on the instruction set where the tension is 0.
+ * Pixels are integers of 8 to 64 bits; if those of the output have another type, every label must fit it. Labels that a
+ * ConstantBoundaryCondition, or one that is asked, supplies must be below 2^53 in magnitude. Geometry, axes, boundary
+ * conditions, streaming, threads and progress are those of NonOscillatorySubdivisionImageFilter. The result depends on
+ * the input and the options alone, not even on the instruction set where the tension is 0.
  *
  * \throw itk::ExceptionObject on update, as NonOscillatorySubdivisionImageFilter does, and if a label does not fit.
  *
@@ -44,6 +46,9 @@ public:
   static_assert(std::is_integral<typename TInputImage::PixelType>::value &&
                   std::is_integral<typename TOutputImage::PixelType>::value,
                 "Labels are integers.");
+  static_assert(!std::is_same<typename TOutputImage::PixelType, bool>::value ||
+                  std::is_same<typename TInputImage::PixelType, bool>::value,
+                "Labels other than those of bool do not fit pixels of bool.");
 
 protected:
   LabelSubdivisionImageFilter()
@@ -56,7 +61,6 @@ protected:
   void
   VerifyPreconditions() const override
   {
-    Superclass::VerifyPreconditions();
     try
     {
       Subdivision::LabelSubdivider::CheckScheme(this->GetParts());
@@ -64,6 +68,16 @@ protected:
     catch (const std::invalid_argument & error)
     {
       itkExceptionMacro(<< error.what());
+    }
+    Superclass::VerifyPreconditions();
+  }
+
+  void
+  CheckTension() const override
+  {
+    if (this->GetParts().HasTension())
+    {
+      Superclass::CheckTension();
     }
   }
 

@@ -151,6 +151,13 @@ protected:
           const Subdivision::Options &        options,
           unsigned int                        threads) = 0;
 
+  /** \throw std::invalid_argument if the scheme cannot have the tension */
+  virtual void
+  CheckTension() const
+  {
+    Subdivision::CheckTension(this->GetParts(), m_Tension);
+  }
+
   const Subdivision::Scheme &
   GetParts() const
   {

@@ -138,7 +138,7 @@ SubdivisionImageFilterBase<TInputImage, TOutputImage>::VerifyPreconditions() con
   Superclass::VerifyPreconditions();
   try
   {
-    Subdivision::CheckTension(this->GetParts(), m_Tension);
+    this->CheckTension();
   }
   catch (const std::invalid_argument & error)
   {
@@ -280,9 +280,9 @@ SubdivisionImageFilterBase<TInputImage, TOutputImage>::GenerateInputRequestedReg
   if (input)
   {
     const OutputRegionType & requested = this->GetOutput()->GetRequestedRegion();
-    // Nothing is computed of an empty region.
-    input->SetRequestedRegion(requested.GetNumberOfPixels() == 0 ? input->GetLargestPossibleRegion()
-                                                                 : this->ComputeRequest(requested));
+    // Nothing is computed of an empty region, and the pipeline refuses one outside the output as soon as this returns.
+    const bool isComputed = requested.GetNumberOfPixels() != 0 && this->GetOutput()->VerifyRequestedRegion();
+    input->SetRequestedRegion(isComputed ? this->ComputeRequest(requested) : input->GetLargestPossibleRegion());
   }
 }
 
@@ -302,12 +302,19 @@ SubdivisionImageFilterBase<TInputImage, TOutputImage>::GenerateData()
 
   Subdivision::Options options = this->GetOptions();
   options.Boundary = Detail::ToBoundary<InputImageType>(*m_BoundaryCondition, input);
-  const std::unique_ptr<Subdivision::TileRun> run =
-    this->MakeRun(Detail::ViewRegion<const void>(input, input->GetBufferedRegion()),
-                  Detail::ToBox(input, input->GetLargestPossibleRegion()),
-                  Detail::ViewRegion<void>(output, requested),
-                  options,
-                  static_cast<unsigned int>(threads));
+  std::unique_ptr<Subdivision::TileRun> run;
+  try
+  {
+    run = this->MakeRun(Detail::ViewRegion<const void>(input, input->GetBufferedRegion()),
+                        Detail::ToBox(input, input->GetLargestPossibleRegion()),
+                        Detail::ViewRegion<void>(output, requested),
+                        options,
+                        static_cast<unsigned int>(threads));
+  }
+  catch (const std::invalid_argument & error)
+  {
+    itkExceptionMacro("The images do not fit what was requested of them: " << error.what());
+  }
   Detail::SubdivisionProgress progress(this, requested.GetNumberOfPixels() * Detail::CountComponents(output));
   progress.RunTiles(*run, threader, workUnits);
 

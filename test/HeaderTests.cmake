@@ -39,10 +39,12 @@ foreach(header IN LISTS plain_headers)
 endforeach()
 
 # Images that the filter does not take are refused by the compiler, in the filter's words.
-foreach(kind Adaptor LabelMap SpecialCoordinates Matrices VariableLength LongDoubles)
+foreach(kind Adaptor LabelMap SpecialCoordinates Matrices VariableLength LongDoubles BoolOfLabels)
   set(test "NonOscillatorySubdivisionHeaders.Refuse${kind}")
   if(kind MATCHES "Matrices|VariableLength|LongDoubles")
     set(message "Pixels to be subdivided are, or consist of, integers")
+  elseif(kind STREQUAL "BoolOfLabels")
+    set(message "Labels other than those of bool do not fit")
   else()
     set(message "Images to be subdivided are itk::Image or itk::VectorImage")
   endif()

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -346,6 +347,47 @@ TEST(LabelSubdivider, FullRangeOfLabels)
   }
   LabelSubdivider run(in, box, { output.data(), ElementType::Int64, { { 0, 16, 1 } } }, options);
   EXPECT_THROW(RunTiles(run, 1, monitor), std::range_error);
+}
+
+/** A boundary supplies doubles, several integers of which would be one from 2^53 on. */
+TEST(LabelSubdivider, LabelsOfTheBoundaryAreExact)
+{
+  const TestArray::Box             box{ { 0, 1 } };
+  const std::vector<std::uint64_t> labels{ 7 };
+  std::vector<std::uint64_t>       output(2);
+  const ConstArrayView             in{ labels.data(), ElementType::UInt64, { { 0, 1, 1 } } };
+  const ArrayView                  out{ output.data(), ElementType::UInt64, { { 0, 2, 1 } } };
+  Options                          options = LabelSubdivider::GetDefaultOptions();
+  options.SubdividedAxes = { true };
+  CountingMonitor monitor;
+  const double    largest = 9007199254740991.0;
+  options.Boundary = Boundary::Constant({ largest });
+  LabelSubdivider exact(in, box, out, options);
+  EXPECT_NO_THROW(RunTiles(exact, 1, monitor));
+  for (const double constant : { largest + 1.0, std::ldexp(1.0, 63) })
+  {
+    options.Boundary = Boundary::Constant({ constant });
+    LabelSubdivider run(in, box, out, options);
+    EXPECT_THROW(RunTiles(run, 1, monitor), std::range_error) << constant;
+  }
+}
+
+TEST(LabelSubdivider, SchemesWithoutATensionIgnoreIt)
+{
+  const TestArray::Box box{ { 0, 9 } };
+  TestArray            labels(ElementType::UInt8, box);
+  TestArray::ForEachIndex(box, [&](const TestArray::Index & index) { labels.Set(index, index[0] < 4 ? 3.0 : 8.0); });
+  for (const char * const scheme : { "bspline", "linear" })
+  {
+    Options options = LabelSubdivider::GetDefaultOptions();
+    options.Scheme = &FindScheme(scheme);
+    options.SubdividedAxes = { true };
+    TestArray output(ElementType::UInt8, { { 0, 18 } });
+    Compute(labels, box, output, options);
+    TestArray::ForEachIndex(output.GetBox(), [&](const TestArray::Index & index) {
+      EXPECT_EQ(output.Get(index), index[0] < 8 ? 3.0 : 8.0) << scheme << index[0];
+    });
+  }
 }
 
 TEST(LabelSubdivider, RefusesWhatIsNoLabelMap)

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Does not compile, but says why: REFUSED_IMAGE chooses a kind of image that the filter does not take.
+// Does not compile, but says why: REFUSED_IMAGE chooses a kind of image that the filters do not take.
 
 #include "itkAddPixelAccessor.h"
 #include "itkImageAdaptor.h"
 #include "itkLabelMap.h"
 #include "itkLabelObject.h"
+#include "itkLabelSubdivisionImageFilter.h"
 #include "itkMatrix.h"
 #include "itkNonOscillatorySubdivisionImageFilter.h"
 #include "itkPhasedArray3DSpecialCoordinatesImage.h"
@@ -17,10 +18,21 @@ using Matrices = itk::Image<itk::Matrix<float, 3, 3>, 3>;
 using VariableLength = itk::Image<itk::VariableLengthVector<float>, 3>;
 using LongDoubles = itk::Image<long double, 3>;
 
-using RefusedImage = REFUSED_IMAGE;
+/** \brief What refuses an image; for BoolOfLabels, labels that are to become pixels of bool. */
+template <typename TImage>
+struct Refusing
+{
+  using Filter = itk::NonOscillatorySubdivisionImageFilter<TImage>;
+};
+struct BoolOfLabels;
+template <>
+struct Refusing<BoolOfLabels>
+{
+  using Filter = itk::LabelSubdivisionImageFilter<itk::Image<unsigned char, 3>, itk::Image<bool, 3>>;
+};
 
 int
 main()
 {
-  itk::NonOscillatorySubdivisionImageFilter<RefusedImage>::New()->Update();
+  Refusing<REFUSED_IMAGE>::Filter::New()->Update();
 }

@@ -92,6 +92,14 @@ TEST(LabelSubdivisionImageFilter, RefusesOtherSchemesAndLabelsThatDoNotFit)
   filter->SetTension(2.0);
   EXPECT_THROW(filter->Update(), itk::ExceptionObject);
 
+  for (const char * const scheme : { "bspline", "linear" })
+  {
+    const auto smooth = FilterType::New();
+    smooth->SetInput(MakeLabels());
+    smooth->SetSchemeByName(scheme);
+    EXPECT_NO_THROW(smooth->Update()) << scheme;
+  }
+
   const auto narrow = itk::LabelSubdivisionImageFilter<ImageType, itk::Image<signed char, 3>>::New();
   narrow->SetInput(MakeLabels());
   EXPECT_THROW(narrow->Update(), itk::ExceptionObject);

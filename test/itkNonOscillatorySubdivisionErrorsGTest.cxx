@@ -114,3 +114,26 @@ TEST(NonOscillatorySubdivisionErrors, MoreThanThreeAxes)
   EXPECT_EQ(ErrorOf(filter.GetPointer()), "");
   EXPECT_EQ(filter->GetOutput()->GetLargestPossibleRegion(), MakeRegion<Series>({ 0, 0, 0, 0 }, { 4, 2, 4, 4 }));
 }
+
+TEST(NonOscillatorySubdivisionErrors, RegionsOutsideTheOutput)
+{
+  auto filter = LineFilter::New();
+  filter->SetInput(SomeLine());
+  filter->UpdateOutputInformation();
+  for (const itk::IndexValueType first : { -1, 7, 8, 100 })
+  {
+    filter->GetOutput()->SetRequestedRegion(MakeRegion<Line>({ first }, { 2 }));
+    EXPECT_THROW(filter->GetOutput()->Update(), itk::InvalidRequestedRegionError) << first;
+  }
+  filter->GetOutput()->SetRequestedRegion(MakeRegion<Line>({ 6 }, { 2 }));
+  EXPECT_NO_THROW(filter->GetOutput()->Update());
+}
+
+TEST(NonOscillatorySubdivisionErrors, InputWithoutMemory)
+{
+  auto filter = LineFilter::New();
+  auto input = Line::New();
+  input->SetRegions(MakeRegion<Line>({ 0 }, { 4 }));
+  filter->SetInput(input);
+  EXPECT_TRUE(Names(ErrorOf(filter.GetPointer()), { "the input has no data" }));
+}

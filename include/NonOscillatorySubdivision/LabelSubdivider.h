@@ -35,7 +35,7 @@ public:
   /** \param input labels, of any integer type: at least what Subdivider::GetInputRequest() names
    * \param whole the indices of the whole input, beyond which the boundary begins
    * \param output where the labels go, of any integer type: its box is what is computed
-   * \param options the scheme is restored, bspline or linear
+   * \param options the scheme is restored, bspline or linear; the latter two ignore the tension
    * \throw std::invalid_argument if options, types, sizes or boxes do not fit each other, before anything is computed
    */
   LabelSubdivider(const ConstArrayView & input, const Box & whole, const ArrayView & output, const Options & options);
@@ -47,8 +47,8 @@ public:
   std::size_t
   GetNumberOfTiles() const override;
 
-  /** \throw std::range_error if a label does not fit the type of the output, or a constant beyond the image is no
-   * label; and whatever the boundary throws */
+  /** \throw std::range_error if a label does not fit the type of the output, or what a boundary's constant or elements
+   * supply is no label, or one from 2^53 on, which doubles cannot tell apart; and whatever the boundary throws */
   void
   ComputeTile(std::size_t number, TileMonitor & monitor) override;
 

@@ -53,11 +53,15 @@ template <typename T>
 T
 ToLabel(const double value)
 {
-  // The largest 64-bit integers are no doubles: what reaches the next one does not fit.
   const double beyond = std::ldexp(1.0, std::numeric_limits<T>::digits);
   if (!(value >= static_cast<double>(std::numeric_limits<T>::lowest()) && value < beyond && value == std::floor(value)))
   {
     throw std::range_error("the boundary's value " + std::to_string(value) + " is no label of the input's type");
+  }
+  // From 2^53 on, a double stands for several integers: another label than the one that was meant.
+  if (std::abs(value) >= std::ldexp(1.0, std::numeric_limits<double>::digits))
+  {
+    throw std::range_error("the boundary's label " + std::to_string(value) + " is too large: it must be below 2^53");
   }
   return static_cast<T>(value);
 }

@@ -24,6 +24,17 @@ namespace
 /** Voxels of a block along x, y and z, found by measurement: little halo, and few blocks with more than one label. */
 constexpr std::uint64_t BlockSize[3][3] = { { 4096, 1, 1 }, { 256, 1, 64 }, { 64, 24, 24 } };
 
+/** A scheme without a tension ignores what there is, such as the default of labels, which other checks refuse. */
+Options
+ReplaceIgnoredTension(Options options)
+{
+  if (!GetScheme(options).HasTension())
+  {
+    options.Tension = Options().Tension;
+  }
+  return options;
+}
+
 /** \throw std::invalid_argument if anything does not fit */
 const Scheme &
 GetCheckedScheme(const ConstArrayView & input, const Box & whole, const ArrayView & output, const Options & options)
@@ -88,8 +99,8 @@ LabelSubdivider::Implementation::Implementation(const ConstArrayView & input,
   : Input(input)
   , Whole(whole)
   , Output(output)
-  , What(options)
-  , UsedScheme(GetCheckedScheme(input, whole, output, options))
+  , What(ReplaceIgnoredTension(options))
+  , UsedScheme(GetCheckedScheme(input, whole, output, What))
   , BlockAxes(LabelBlockAxes::Choose(options.SubdividedAxes, whole))
   , Writer(output, BlockAxes)
 {

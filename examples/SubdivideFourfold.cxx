@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// Four times the resolution: the filter twice in a pipeline, with real values between, so that nothing is rounded before
-// the end. The pipeline streams through both.
+// Four times the resolution: the filter twice in a pipeline, with real values between, so that nothing is rounded
+// before the end. The pipeline streams through both.
 //
 //   SubdivideFourfold INPUT OUTPUT
 

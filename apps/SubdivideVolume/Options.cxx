@@ -20,6 +20,7 @@ constexpr const char * Footer = R"(Examples:
   SubdivideVolume --memory 500M huge.mha huge-doubled.mha
   SubdivideVolume --levels 2 scan.mha fourfold.mha
   SubdivideVolume --labels organs.seg.nrrd doubled.seg.nrrd
+  SubdivideVolume --piece 3/16 huge.mha huge-doubled.mha    one of 16 processes
   SubdivideVolume --info scan.mha
 
 Exit status: 0 if the output is complete, 1 if the run failed, 2 if the command line was wrong.)";
@@ -144,6 +145,24 @@ AddResources(CLI::App & app, Options & options)
     ->type_name("SIZE")
     ->transform(CLI::Validator(BytesToNumber, ""))
     ->excludes(streams);
+  app
+    .add_option_function<std::string>(
+      "--piece",
+      [&options](const std::string & text) {
+        try
+        {
+          options.Piece = ParsePieceChoice(CLI::detail::to_lower(text));
+        }
+        catch (const std::invalid_argument & error)
+        {
+          throw CLI::ValidationError("--piece", error.what());
+        }
+      },
+      "Make piece K of N of the output, which other processes share that make the others, at any time and on any "
+      "machine "
+      "that shares the file system; rank: K and N from the environment of a Slurm job array, srun or mpirun; status: "
+      "list the pieces that are missing")
+    ->type_name("K/N");
 }
 
 void
@@ -231,7 +250,16 @@ CheckTogether(const CLI::App & app, Options & options)
   {
     Require(options.Output, "OUTPUT");
   }
+  const bool isPiece = options.Piece.Number > 0 || options.Piece.IsStatus;
+  if (isPiece && options.Task != Task::Subdivide)
+  {
+    throw UsageError("--piece makes a piece of an output, which --info and others do not");
+  }
   options.Writing.Compress = options.Writing.Compress || options.Writing.CompressionLevel > 0;
+  if (isPiece && options.Writing.Compress)
+  {
+    throw UsageError("--piece: files that several processes write cannot be compressed");
+  }
 }
 } // namespace
 

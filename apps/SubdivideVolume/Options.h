@@ -2,6 +2,7 @@
 #ifndef Options_h
 #define Options_h
 
+#include "PieceChoice.h"
 #include "VolumeReader.h"
 #include "VolumeWriter.h"
 
@@ -27,6 +28,7 @@ struct Options
   std::string   Output; // empty where the task has none
   InputOptions  Reading;
   OutputOptions Writing;
+  PieceChoice   Piece;
   bool          Labels = false; // the voxels are labels
   std::string   Scheme;
   double        Tension = 0.0;

@@ -13,7 +13,7 @@ public:
   Monitor(const Pipeline & pipeline, Progress & progress)
     : m_Pipeline(pipeline)
     , m_Progress(progress)
-    , m_All(CountElements(pipeline.m_Chain.GetWholeOutput()) * pipeline.m_Chain.GetOutput().NumberOfComponents)
+    , m_All(CountAll(pipeline))
   {}
 
   void
@@ -58,6 +58,17 @@ public:
   }
 
 private:
+  static std::uint64_t
+  CountAll(const Pipeline & pipeline)
+  {
+    std::uint64_t voxels = 0;
+    for (const Box & piece : pipeline.m_Plan.Pieces)
+    {
+      voxels += CountElements(piece);
+    }
+    return voxels * pipeline.m_Chain.GetOutput().NumberOfComponents;
+  }
+
   // Told of every row by every thread, so that a lock would be fought for.
   const Pipeline &           m_Pipeline;
   Progress &                 m_Progress;

@@ -41,11 +41,15 @@ GetMachineBytes()
 class Planner
 {
 public:
-  Planner(const LevelChain & chain, const VolumeReader & reader, const VolumeWriter * writer, unsigned int threads)
+  Planner(const LevelChain &       chain,
+          const std::vector<Box> & boxes,
+          const VolumeReader &     reader,
+          const VolumeWriter *     writer,
+          unsigned int             threads)
     : m_Chain(chain)
+    , m_Boxes(boxes)
     , m_Reader(reader)
     , m_Writer(writer)
-    , m_Whole(chain.GetWholeOutput())
     , m_FixedBytes(GetResidentBytes() + SpareBytes + threads * ScratchBytesPerThread)
   {}
 
@@ -67,18 +71,25 @@ public:
   FindNumber(std::uint64_t budget, unsigned int buffers) const;
 
 private:
-  const LevelChain &   m_Chain;
-  const VolumeReader & m_Reader;
-  const VolumeWriter * m_Writer;
-  const Box            m_Whole;
-  const std::uint64_t  m_FixedBytes;
+  const LevelChain &       m_Chain;
+  const std::vector<Box> & m_Boxes;
+  const VolumeReader &     m_Reader;
+  const VolumeWriter *     m_Writer;
+  const std::uint64_t      m_FixedBytes;
 };
 
 Plan
 Planner::Make(const std::uint64_t number, const unsigned int buffers) const
 {
   Plan plan;
-  plan.Pieces = SplitIntoPieces(m_Whole, this->WritesParts() ? number : 1);
+  for (const Box & box : m_Boxes)
+  {
+    const std::uint64_t parts = this->WritesParts() ? (number + m_Boxes.size() - 1) / m_Boxes.size() : 1;
+    for (const Box & piece : SplitIntoPieces(box, parts))
+    {
+      plan.Pieces.push_back(piece);
+    }
+  }
   plan.Buffers = plan.Pieces.size() > 1 ? buffers : 1;
   const std::uint64_t inputBytes = m_Reader.GetDescription().GetVoxelBytes();
   const std::uint64_t outputBytes = m_Chain.GetOutput().GetVoxelBytes();
@@ -100,18 +111,19 @@ Planner::Make(const std::uint64_t number, const unsigned int buffers) const
 std::uint64_t
 Planner::GetGoodNumber() const
 {
-  const std::uint64_t rows = GetMaximumNumberOfPieces(m_Whole);
-  const std::uint64_t planes = m_Whole.size() > 1 ? rows / m_Whole[1].Size : 1;
+  const Box &         first = m_Boxes.front();
+  const std::uint64_t rows = GetMaximumNumberOfPieces(first);
+  const std::uint64_t planes = first.size() > 1 ? rows / first[1].Size : 1;
   const std::uint64_t depth = planes > 1 ? planes : rows;
-  const std::uint64_t bytes = CountElements(m_Whole) * m_Chain.GetOutput().GetVoxelBytes();
-  return std::max<std::uint64_t>(std::min(bytes / GoodPieceBytes, depth / GoodPieceDepth), 1);
+  const std::uint64_t bytes = CountElements(first) * m_Chain.GetOutput().GetVoxelBytes();
+  return m_Boxes.size() * std::max<std::uint64_t>(std::min(bytes / GoodPieceBytes, depth / GoodPieceDepth), 1);
 }
 
 std::uint64_t
 Planner::FindNumber(const std::uint64_t budget, const unsigned int buffers) const
 {
   std::uint64_t tooFew = 0;
-  std::uint64_t enough = this->WritesParts() ? GetMaximumNumberOfPieces(m_Whole) : 1;
+  std::uint64_t enough = this->WritesParts() ? m_Boxes.size() * GetMaximumNumberOfPieces(m_Boxes.front()) : 1;
   while (enough - tooFew > 1)
   {
     const std::uint64_t middle = std::min(2 * tooFew + 1, tooFew + (enough - tooFew) / 2);
@@ -129,13 +141,14 @@ Planner::FindNumber(const std::uint64_t budget, const unsigned int buffers) cons
 } // namespace
 
 Plan
-MakePlan(const Options &      options,
-         const LevelChain &   chain,
-         const VolumeReader & reader,
-         const VolumeWriter * writer,
-         const unsigned int   threads)
+MakePlan(const Options &          options,
+         const LevelChain &       chain,
+         const std::vector<Box> & boxes,
+         const VolumeReader &     reader,
+         const VolumeWriter *     writer,
+         const unsigned int       threads)
 {
-  const Planner planner(chain, reader, writer, threads);
+  const Planner planner(chain, boxes, reader, writer, threads);
   if (options.Streams > 0)
   {
     return planner.Make(options.Streams, 2);

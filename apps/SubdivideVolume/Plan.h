@@ -21,14 +21,16 @@ struct Plan
 };
 
 /** Chooses the pieces so that the process stays within its memory.
+ * \param boxes what is computed of the output, each box continuing the one before
  * \param writer null if it is not known what the output will be; then it is taken for one that is written in pieces
  * \throw std::runtime_error if the memory budget of the options cannot be kept */
 Plan
-MakePlan(const Options &      options,
-         const LevelChain &   chain,
-         const VolumeReader & reader,
-         const VolumeWriter * writer,
-         unsigned int         threads);
+MakePlan(const Options &          options,
+         const LevelChain &       chain,
+         const std::vector<Box> & boxes,
+         const VolumeReader &     reader,
+         const VolumeWriter *     writer,
+         unsigned int             threads);
 
 /** Threads that fit a memory budget, each with its scratch memory. */
 unsigned int

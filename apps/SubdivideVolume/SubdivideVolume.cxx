@@ -9,6 +9,9 @@
 #include "LibraryMessages.h"
 #include "OneLineMessage.h"
 #include "Options.h"
+#include "PieceAgreement.h"
+#include "PieceFolder.h"
+#include "PieceRun.h"
 #include "Pipeline.h"
 #include "Plan.h"
 #include "Progress.h"
@@ -123,7 +126,7 @@ Inform(const Options & options)
   const auto            reader = Open(options, warnings);
   const auto            writer = options.Output.empty() ? nullptr : Create(options, threads, warnings);
   const LevelChain      chain(reader->GetDescription(), options, threads);
-  const Plan            plan = MakePlan(options, chain, *reader, writer.get(), threads);
+  const Plan            plan = MakePlan(options, chain, { chain.GetWholeOutput() }, *reader, writer.get(), threads);
   PassOn(messages, warnings);
   PrintResult(
     Describe(Forecast{ options, reader->GetDescription(), chain.GetOutput(), plan, warnings.GetAll(), threads }));
@@ -140,7 +143,7 @@ Subdivide(const Options & options)
   const auto            writer = Create(options, threads, warnings);
   Progress              progress(GetProgressStyle(options));
   LevelChain            chain(reader->GetDescription(), options, threads);
-  const Plan            plan = MakePlan(options, chain, *reader, writer.get(), threads);
+  const Plan            plan = MakePlan(options, chain, { chain.GetWholeOutput() }, *reader, writer.get(), threads);
   VoxelCounter          counter(chain, reader->GetDescription(), threads);
   Pipeline              pipeline(*reader, chain, *writer, counter, plan);
   WarnOfStreams(options, *reader, *writer, warnings);
@@ -170,13 +173,90 @@ Subdivide(const Options & options)
   }
 }
 
+/** Makes a piece unless it was made, and notes it. */
+void
+MakePiece(const Options & options,
+          VolumeReader &  reader,
+          LevelChain &    chain,
+          PieceWriter &   writer,
+          PieceFolder &   folder)
+{
+  const Piece piece = SelectPiece(chain.GetWholeOutput(), options.Piece, writer.SplitsPlanes());
+  if (const auto checksum = folder.FindNote(options.Piece.Number))
+  {
+    const fs::path where = folder.IsFinished() ? writer.GetOutput().parent_path() : folder.GetOutputFolder();
+    if (writer.ReadChecksum(where, piece) == *checksum)
+    {
+      return;
+    }
+  }
+  Progress progress(GetProgressStyle(options));
+  writer.Open(folder.GetOutputFolder(), folder.MakeTemporaryFolder(), piece);
+  if (!piece.empty())
+  {
+    const unsigned int    threads = GetNumberOfThreads(options);
+    const LibraryMessages messages;
+    const Plan            plan = MakePlan(options, chain, piece, reader, &writer, threads);
+    VoxelCounter          counter(chain, reader.GetDescription(), threads);
+    Pipeline              pipeline(reader, chain, writer, counter, plan);
+    pipeline.Run(progress);
+    CheckMessages(options.Input, messages.GetText());
+  }
+  writer.Commit();
+  folder.Note(options.Piece.Number, writer.ReadChecksum(folder.GetOutputFolder(), piece));
+  progress.Finish();
+}
+
+void
+SubdividePiece(const Options & options)
+{
+  const WatchedTask  task("cannot process " + options.Input);
+  Warnings           warnings(options.Quiet);
+  const unsigned int threads = GetNumberOfThreads(options);
+  const auto         reader = Open(options, warnings);
+  CheckFolders(options);
+  const auto writer =
+    CreatePieceWriter(options.Output, options.Writing, [&warnings](const std::string & text) { warnings.Add(text); });
+  LevelChain chain(reader->GetDescription(), options, threads);
+  writer->Begin(chain.GetOutput());
+  PieceFolder folder(writer->GetOutput(), options.Piece.Pieces);
+  folder.Join(MakePieceAgreement(options, reader->GetDescription(), chain.GetOutput()), *writer);
+  bool isComplete = false;
+  try
+  {
+    MakePiece(options, *reader, chain, *writer, folder);
+    isComplete = folder.Finish(*writer);
+  }
+  catch (const std::exception &)
+  {
+    // Another process that makes the same piece may have been faster, so that what this one writes into is gone.
+    isComplete = folder.IsFinished();
+    if (!isComplete)
+    {
+      throw;
+    }
+  }
+  const auto        missing = isComplete ? std::vector<unsigned int>() : folder.FindMissing();
+  const std::string text = DescribePieces(options, options.Piece.Pieces, missing, isComplete);
+  if (options.Json)
+  {
+    PrintResult(text);
+  }
+  else if (!options.Quiet)
+  {
+    std::fputs(text.c_str(), stdout);
+  }
+}
+
 void
 Perform(const Options & options)
 {
   switch (options.Task)
   {
     case Task::Subdivide:
-      return Subdivide(options);
+      return options.Piece.IsStatus     ? PrintMissingPieces(options)
+             : options.Piece.Number > 0 ? SubdividePiece(options)
+                                        : Subdivide(options);
     case Task::Inform:
       return Inform(options);
     case Task::ListSeries:

@@ -134,6 +134,23 @@ IsWhole(const std::vector<std::uint64_t> & size, const Box & box)
 }
 } // namespace
 
+bool
+HasNiftiEndingInMixedCase(const std::string & path)
+{
+  const std::string name = std::filesystem::path(path).filename().string();
+  const std::string small = ToLower(name);
+  for (const std::string ending : { ".nii.gz", ".img.gz", ".nii", ".hdr", ".img" })
+  {
+    const std::size_t length = ending.size();
+    if (name.size() > length && small.compare(small.size() - length, length, ending) == 0)
+    {
+      const std::string last = name.substr(name.size() - length);
+      return last != ending && std::any_of(last.begin(), last.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+    }
+  }
+  return false;
+}
+
 std::string
 GetReason(const std::exception & error)
 {
@@ -153,7 +170,11 @@ ItkReader::ItkReader(const std::string & path)
   }
   if (m_ImageIO.IsNull())
   {
-    FailToRead(path, "it is in none of the known image formats");
+    FailToRead(path,
+               HasNiftiEndingInMixedCase(path)
+                 ? "NIfTI files' endings are in small letters or in capitals, not in both; rename it"
+                 : "it is in none of the known image formats, which SubdivideVolume --formats lists; --raw reads voxels "
+                   "without a header");
   }
   try
   {

@@ -34,6 +34,10 @@ private:
   std::vector<char>         m_Whole;
 };
 
+/** Whether a name has an ending of NIfTI that is neither in small letters nor in capitals: its library knows no other. */
+bool
+HasNiftiEndingInMixedCase(const std::string & path);
+
 /** What an exception says, less the place in the code that ITK's exceptions name. */
 std::string
 GetReason(const std::exception & error);

@@ -107,6 +107,27 @@ Join(const std::vector<std::string> & words)
   }
   return text;
 }
+/** ITK's writers know endings in small letters. */
+std::string
+WithEndingInSmallLetters(const fs::path & name)
+{
+  const fs::path    stem = name.stem();
+  const std::string ending = ToLower(name.extension().string());
+  return ending == ".gz" ? stem.stem().string() + ToLower(stem.extension().string()) + ending : stem.string() + ending;
+}
+
+std::string
+WithEndingInCapitals(const fs::path & name)
+{
+  const fs::path    stem = name.extension() == ".gz" ? name.stem().stem() : name.stem();
+  const std::size_t start = stem.string().size();
+  std::string       text = name.string();
+  for (std::size_t i = start; i < text.size(); ++i)
+  {
+    text[i] = text[i] >= 'a' && text[i] <= 'z' ? static_cast<char>(text[i] - 'a' + 'A') : text[i];
+  }
+  return text;
+}
 } // namespace
 
 ItkWriter::ItkWriter(const std::string & path, const OutputOptions & options, const WarningSink & warn)
@@ -193,6 +214,7 @@ ItkWriter::Try()
   try
   {
     this->WriteFile(small, voxels.data());
+    this->CheckPartners();
     const ItkReader reader(m_File.string());
     if (!HaveSameVoxels(small, reader.GetDescription()))
     {
@@ -224,14 +246,50 @@ ItkWriter::Try()
 void
 ItkWriter::Begin(const ImageDescription & description)
 {
+  if (HasNiftiEndingInMixedCase(m_Path))
+  {
+    Fail(m_Path, "NIfTI files' endings are in small letters or in capitals, not in both");
+  }
   m_Description = description;
   m_Folder = std::make_unique<TemporaryFolder>(m_Path, m_Warn);
-  const fs::path  output = m_Folder->GetFileName();
-  std::error_code error;
-  m_File = m_IsGzipped ? output.parent_path() / "image.nii"
-                       : output.parent_path() / (output.stem().string() + ToLower(output.extension().string()));
+  const fs::path output = m_Folder->GetFileName();
+  m_File = output.parent_path() / (m_IsGzipped ? "image.nii" : WithEndingInSmallLetters(output.filename()));
   CheckSize(m_Path, description, *this->MakeImageIO(description));
   this->Try();
+}
+
+/** What each file that ITK wrote is to be called. The files of a pair have endings of one case. */
+std::map<fs::path, fs::path>
+ItkWriter::GetFinalNames() const
+{
+  const fs::path               output = m_Folder->GetFileName().filename();
+  const bool                   isInCapitals = output.string() == WithEndingInCapitals(m_File.filename());
+  std::map<fs::path, fs::path> names;
+  for (const fs::directory_entry & entry : fs::directory_iterator(m_File.parent_path()))
+  {
+    const fs::path name = entry.path().filename();
+    names[name] = name == m_File.filename() ? output : isInCapitals ? fs::path(WithEndingInCapitals(name)) : name;
+  }
+  return names;
+}
+
+/** Where the output replaces an image of two files, it replaces both; no other file gives way. */
+void
+ItkWriter::CheckPartners() const
+{
+  const fs::path output = m_Folder->GetOutput();
+  if (m_IsGzipped || fs::exists(output))
+  {
+    return;
+  }
+  for (const auto & names : this->GetFinalNames())
+  {
+    const fs::path partner = output.parent_path() / names.second;
+    if (fs::exists(fs::symlink_status(partner)))
+    {
+      throw std::runtime_error("it would replace the file " + partner.string());
+    }
+  }
 }
 
 void
@@ -291,16 +349,16 @@ ItkWriter::Commit()
     this->Compress();
     fs::remove(m_File);
   }
-  else if (m_File != output)
+  const bool replaces = fs::exists(m_Folder->GetOutput());
+  for (const auto & [name, finalName] : m_IsGzipped ? std::map<fs::path, fs::path>() : this->GetFinalNames())
   {
-    fs::rename(m_File, output);
-  }
-  // Where the output replaces an image of two files, it replaces both.
-  if (fs::exists(m_Folder->GetOutput()))
-  {
-    for (const fs::directory_entry & entry : fs::directory_iterator(output.parent_path()))
+    if (name != finalName)
     {
-      m_Folder->AllowReplacing(entry.path().filename().string());
+      fs::rename(output.parent_path() / name, output.parent_path() / finalName);
+    }
+    if (replaces)
+    {
+      m_Folder->AllowReplacing(finalName.string());
     }
   }
   m_Folder->Commit();

@@ -8,6 +8,7 @@
 #include "itkImageIOBase.h"
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -47,6 +48,10 @@ private:
   Try();
   void
   Compress();
+  void
+  CheckPartners() const;
+  std::map<std::filesystem::path, std::filesystem::path>
+  GetFinalNames() const;
 
   std::string                      m_Path;
   OutputOptions                    m_Options;

@@ -25,9 +25,9 @@ InMegabytes(std::uint64_t bytes)
 }
 } // namespace
 
-OutputFile::OutputFile(const std::string & path, const std::string & meant)
+OutputFile::OutputFile(const std::string & path, const std::string & meant, const Opening opening)
   : m_Meant(meant)
-  , m_Descriptor(open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666))
+  , m_Descriptor(open(path.c_str(), O_WRONLY | O_CLOEXEC | (opening == Opening::New ? O_CREAT | O_EXCL : 0), 0666))
 {
   if (m_Descriptor < 0)
   {
@@ -38,9 +38,8 @@ OutputFile::OutputFile(const std::string & path, const std::string & meant)
 OutputFile::~OutputFile() { close(m_Descriptor); }
 
 void
-OutputFile::Reserve(std::uint64_t size)
+OutputFile::CheckRoom(std::uint64_t size) const
 {
-  // Where the disk is far too small, blocks are not even tried for: they take a while.
   struct statvfs disk = {};
   if (fstatvfs(m_Descriptor, &disk) == 0 && size / disk.f_frsize > disk.f_bavail)
   {
@@ -48,18 +47,50 @@ OutputFile::Reserve(std::uint64_t size)
          "it needs " + InMegabytes(size) + ", and the disk has " +
            InMegabytes(std::uint64_t{ disk.f_bavail } * disk.f_frsize) + " left");
   }
-#ifdef __linux__
-  // Not every file system can; then the disk may run full while the voxels are written.
-  if (size > 0 && fallocate(m_Descriptor, 0, 0, static_cast<off_t>(size)) == 0)
-  {
-    return;
-  }
-  if (size > 0 && (errno == ENOSPC || errno == EDQUOT || errno == EFBIG))
+}
+
+void
+OutputFile::Reserve(std::uint64_t size)
+{
+  // Where the disk is far too small, blocks are not even tried for: they take a while.
+  this->CheckRoom(size);
+  this->ReserveRange(0, size);
+  if (ftruncate(m_Descriptor, static_cast<off_t>(size)) != 0)
   {
     Fail(m_Meant, std::strerror(errno));
   }
-#endif
+}
+
+void
+OutputFile::SetSize(std::uint64_t size)
+{
+  this->CheckRoom(size);
   if (ftruncate(m_Descriptor, static_cast<off_t>(size)) != 0)
+  {
+    Fail(m_Meant, std::strerror(errno));
+  }
+}
+
+void
+OutputFile::ReserveRange(std::uint64_t offset, std::uint64_t count)
+{
+#ifdef __linux__
+  // Not every file system can; then the disk may run full while the voxels are written.
+  if (count > 0 && fallocate(m_Descriptor, 0, static_cast<off_t>(offset), static_cast<off_t>(count)) != 0 &&
+      (errno == ENOSPC || errno == EDQUOT || errno == EFBIG))
+  {
+    Fail(m_Meant, std::strerror(errno));
+  }
+#else
+  static_cast<void>(offset);
+  static_cast<void>(count);
+#endif
+}
+
+void
+OutputFile::BringToDisk()
+{
+  if (fsync(m_Descriptor) != 0 && errno != EINVAL)
   {
     Fail(m_Meant, std::strerror(errno));
   }

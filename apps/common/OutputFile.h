@@ -5,13 +5,19 @@
 #include <cstdint>
 #include <string>
 
-/** A file that did not exist before, open for writing at any place. */
+/** A file that is open for writing at any place. */
 class OutputFile
 {
 public:
+  enum class Opening
+  {
+    New,     ///< it must not exist
+    Existing ///< it must exist, and keeps what it holds
+  };
+
   /** \param meant the name that messages call it by
    * \throw std::runtime_error */
-  OutputFile(const std::string & path, const std::string & meant);
+  OutputFile(const std::string & path, const std::string & meant, Opening opening = Opening::New);
   ~OutputFile();
   OutputFile(const OutputFile &) = delete;
   OutputFile &
@@ -22,11 +28,29 @@ public:
   void
   Reserve(std::uint64_t size);
 
+  /** Gives the file its full size without blocks for it: others take those for the parts that they write.
+   * \throw std::runtime_error if the disk has no room */
+  void
+  SetSize(std::uint64_t size);
+
+  /** Takes blocks for a part of the file, whose bytes stay as they are.
+   * \throw std::runtime_error if the disk has no room */
+  void
+  ReserveRange(std::uint64_t offset, std::uint64_t count);
+
+  /** Brings all that was written to the disk.
+   * \throw std::runtime_error */
+  void
+  BringToDisk();
+
   /** \throw std::runtime_error */
   void
   WriteAt(std::uint64_t offset, const void * bytes, std::uint64_t count);
 
 private:
+  void
+  CheckRoom(std::uint64_t size) const;
+
   std::string m_Meant;
   int         m_Descriptor;
 };

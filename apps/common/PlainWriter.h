@@ -4,6 +4,7 @@
 
 #include "OutputFile.h"
 #include "ParallelDeflate.h"
+#include "PlainHeader.h"
 #include "TemporaryFolder.h"
 #include "VolumeWriter.h"
 
@@ -35,24 +36,11 @@ public:
   Commit() override;
 
 private:
-  std::string
-  GetDataName(bool isCompressed) const;
-  std::string
-  ComposeHeader() const;
-  void
-  CheckDataName() const;
-  void
-  RemoveOldData();
-  void
-  CheckHeader() const;
-
   std::string                      m_Path;
   OutputOptions                    m_Options;
   WarningSink                      m_Warn;
-  bool                             m_IsNrrd;
-  bool                             m_IsDetached;
   ImageDescription                 m_Description;
-  std::string                      m_Header;
+  PlainHeader                      m_Header;
   std::unique_ptr<TemporaryFolder> m_Folder;
   std::unique_ptr<OutputFile>      m_HeaderFile;
   std::unique_ptr<OutputFile>      m_DataFile; // null: the header's file

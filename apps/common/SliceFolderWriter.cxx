@@ -13,12 +13,15 @@ using itk::Subdivision::Box;
 
 namespace
 {
-/** The folder's path without a slash at its end, whose last part is its name. */
-fs::path
-GetFolder(const std::string & path)
+bool
+HasNameOfSlice(const fs::path & folder, const std::string & name)
 {
-  const fs::path full = fs::absolute(path).lexically_normal();
-  return full.has_filename() ? full : full.parent_path();
+  const std::string start = folder.filename().string() + '_';
+  const std::string end = ".tif";
+  const auto        digits = [&] { return name.substr(start.size(), name.size() - start.size() - end.size()); };
+  return name.size() > start.size() + end.size() && name.compare(0, start.size(), start) == 0 &&
+         name.compare(name.size() - end.size(), end.size(), end) == 0 &&
+         digits().find_first_not_of("0123456789") == std::string::npos;
 }
 
 class SliceFolderWriter : public VolumeWriter
@@ -26,7 +29,7 @@ class SliceFolderWriter : public VolumeWriter
 public:
   SliceFolderWriter(const std::string & path, const OutputOptions & options, WarningSink warn)
     : m_Path(path)
-    , m_Output(GetFolder(path))
+    , m_Output(GetSliceFolder(path))
     , m_Stem(m_Output.filename().string())
     , m_Options(options)
     , m_Warn(std::move(warn))
@@ -59,10 +62,6 @@ private:
     throw std::runtime_error("cannot write " + m_Path + ": " + reason);
   }
 
-  bool
-  IsOwnSlice(const std::string & name) const;
-  void
-  CheckOldFolder() const;
   void
   CheckRoom() const;
   std::unique_ptr<TiffPageWriter>
@@ -121,44 +120,9 @@ SliceFolderWriter::Begin(const ImageDescription & description)
   {
     this->Fail("the folder needs a name");
   }
-  this->CheckOldFolder();
+  CheckOldSlices(m_Path, m_Output);
   m_Folder = std::make_unique<StagedFolder>(m_Output);
   this->CheckRoom();
-}
-
-bool
-SliceFolderWriter::IsOwnSlice(const std::string & name) const
-{
-  const std::string start = m_Stem + '_';
-  const std::string end = ".tif";
-  const auto        digits = [&] { return name.substr(start.size(), name.size() - start.size() - end.size()); };
-  return name.size() > start.size() + end.size() && name.compare(0, start.size(), start) == 0 &&
-         name.compare(name.size() - end.size(), end.size(), end) == 0 &&
-         digits().find_first_not_of("0123456789") == std::string::npos;
-}
-
-/** What is not an output of before stays; a name like that of a slice does not make it one. */
-void
-SliceFolderWriter::CheckOldFolder() const
-{
-  std::error_code error;
-  if (!fs::exists(m_Output, error))
-  {
-    return;
-  }
-  if (!fs::is_directory(m_Output, error))
-  {
-    this->Fail("a file has that name");
-  }
-  for (const fs::directory_entry & entry : fs::directory_iterator(m_Output))
-  {
-    const std::string name = entry.path().filename().string();
-    if (!this->IsOwnSlice(name) || !fs::is_regular_file(entry.symlink_status(error)) ||
-        !IsOwnTiff(entry.path().string()))
-    {
-      this->Fail("the folder holds " + name + ", which is no slice of an earlier output; name another folder");
-    }
-  }
 }
 
 void
@@ -177,13 +141,12 @@ SliceFolderWriter::CheckRoom() const
 std::unique_ptr<TiffPageWriter>
 SliceFolderWriter::OpenSlice(std::uint64_t number) const
 {
-  const std::string digits = std::to_string(number);
-  const std::size_t width = std::max<std::size_t>(4, std::to_string(m_Slices - 1).size());
-  const std::string name = m_Stem + '_' + std::string(width - digits.size(), '0') + digits + ".tif";
-  const bool        isBig =
-    m_Description.Grid.Size[0] * m_Description.Grid.Size[1] * m_Description.GetVoxelBytes() > 4000000000u;
-  auto slice = std::make_unique<TiffPageWriter>(
-    (m_Folder->GetPath() / name).string(), (m_Output / name).string(), m_Description, m_Options, isBig);
+  const std::string name = GetSliceName(m_Output, number, m_Slices);
+  auto              slice = std::make_unique<TiffPageWriter>((m_Folder->GetPath() / name).string(),
+                                                (m_Output / name).string(),
+                                                m_Description,
+                                                m_Options,
+                                                NeedsBigTiff(m_Description));
   slice->BeginPage(MakeImageJText(m_Description, 1));
   return slice;
 }
@@ -249,11 +212,58 @@ SliceFolderWriter::Commit()
   {
     this->Fail("it has " + std::to_string(m_Complete) + " of " + std::to_string(m_Slices) + " slices");
   }
-  this->CheckOldFolder(); // other programs may have written there meanwhile
+  CheckOldSlices(m_Path, m_Output); // other programs may have written there meanwhile
   m_Folder->Commit();
   m_Folder.reset();
 }
 } // namespace
+
+fs::path
+GetSliceFolder(const std::string & path)
+{
+  const fs::path full = fs::absolute(path).lexically_normal();
+  return full.has_filename() ? full : full.parent_path();
+}
+
+std::string
+GetSliceName(const fs::path & folder, const std::uint64_t number, const std::uint64_t slices)
+{
+  const std::string digits = std::to_string(number);
+  const std::size_t width = std::max<std::size_t>(4, std::to_string(slices - 1).size());
+  return folder.filename().string() + '_' + std::string(width - digits.size(), '0') + digits + ".tif";
+}
+
+bool
+NeedsBigTiff(const ImageDescription & description)
+{
+  return description.Grid.Size[0] * description.Grid.Size[1] * description.GetVoxelBytes() > 4000000000u;
+}
+
+void
+CheckOldSlices(const std::string & path, const fs::path & folder)
+{
+  const auto fail = [&path](const std::string & reason) {
+    throw std::runtime_error("cannot write " + path + ": " + reason);
+  };
+  std::error_code error;
+  if (!fs::exists(folder, error))
+  {
+    return;
+  }
+  if (!fs::is_directory(folder, error))
+  {
+    fail("a file has that name");
+  }
+  for (const fs::directory_entry & entry : fs::directory_iterator(folder))
+  {
+    const std::string name = entry.path().filename().string();
+    if (!HasNameOfSlice(folder, name) || !fs::is_regular_file(entry.symlink_status(error)) ||
+        !IsOwnTiff(entry.path().string()))
+    {
+      fail("the folder holds " + name + ", which is no slice of an earlier output; name another folder");
+    }
+  }
+}
 
 std::unique_ptr<VolumeWriter>
 CreateSliceFolder(const std::string & path, const OutputOptions & options, const WarningSink & warn)

@@ -4,6 +4,8 @@
 
 #include "VolumeWriter.h"
 
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -11,5 +13,23 @@
  * The folder is complete or not there. One that exists gives way if it is empty or holds such slices alone. */
 std::unique_ptr<VolumeWriter>
 CreateSliceFolder(const std::string & path, const OutputOptions & options, const WarningSink & warn);
+
+/** The folder's path without a slash at its end, whose last part is its name. */
+std::filesystem::path
+GetSliceFolder(const std::string & path);
+
+/** The name of a slice in its folder, of so many. */
+std::string
+GetSliceName(const std::filesystem::path & folder, std::uint64_t number, std::uint64_t slices);
+
+/** Whether a slice may be too large for the addresses of a classic TIFF file. */
+bool
+NeedsBigTiff(const ImageDescription & description);
+
+/** What is not an output of before stays; a name like that of a slice does not make it one.
+ * \param path what messages call the folder
+ * \throw std::runtime_error if the folder holds anything else */
+void
+CheckOldSlices(const std::string & path, const std::filesystem::path & folder);
 
 #endif

@@ -16,9 +16,6 @@
 
 namespace fs = std::filesystem;
 
-namespace
-{
-/** \return 0, or the error */
 int
 BringToDisk(const fs::path & path)
 {
@@ -32,10 +29,8 @@ BringToDisk(const fs::path & path)
   return error;
 }
 
-/** Exchanges the names of two folders in one step, where the system can do that.
- * \return 0, or the error */
 int
-Exchange(const fs::path & a, const fs::path & b)
+ExchangeNames(const fs::path & a, const fs::path & b)
 {
 #ifdef RENAME_EXCHANGE
   if (renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0)
@@ -56,7 +51,6 @@ Exchange(const fs::path & a, const fs::path & b)
   }
   return rename(aside.c_str(), a.c_str()) == 0 ? 0 : errno;
 }
-} // namespace
 
 StagedFolder::StagedFolder(const fs::path & output)
 {
@@ -103,7 +97,7 @@ StagedFolder::Commit()
   umask(mask);
   chmod(m_Folder.c_str(), replaces ? status.st_mode & 07777 : 0777 & ~mask);
   const auto lock = HoldInterrupts();
-  const int  error = replaces                                          ? Exchange(m_Folder, m_Output)
+  const int  error = replaces                                          ? ExchangeNames(m_Folder, m_Output)
                      : rename(m_Folder.c_str(), m_Output.c_str()) == 0 ? 0
                                                                        : errno;
   if (error != 0)

@@ -4,6 +4,16 @@
 
 #include <filesystem>
 
+/** Brings a file or the entries of a folder to the disk.
+ * \return 0, or the error */
+int
+BringToDisk(const std::filesystem::path & path);
+
+/** Exchanges the names of two folders in one step, where the system can do that.
+ * \return 0, or the error */
+int
+ExchangeNames(const std::filesystem::path & a, const std::filesystem::path & b);
+
 /** A folder that is written under a hidden name beside its own, and takes its name when it is complete. Otherwise it is
  * removed, also when the program is interrupted. */
 class StagedFolder

@@ -24,20 +24,6 @@ Fail(const fs::path & path, int error)
   throw std::runtime_error("cannot write " + path.string() + ": " + std::strerror(error));
 }
 
-/** The file that a name leads to, whether it exists or not: a symbolic link is to stay one. */
-fs::path
-Resolve(fs::path output)
-{
-  std::error_code error;
-  constexpr int   longestChain = 40;
-  for (int i = 0; i < longestChain && fs::is_symlink(output, error); ++i)
-  {
-    output = output.parent_path() / fs::read_symlink(output, error);
-  }
-  const fs::path folder = fs::canonical(fs::absolute(output).parent_path(), error);
-  return error ? fs::absolute(output) : folder / output.filename();
-}
-
 /** Copies over a file that exists, without making it anew. The new size is taken first, while the old bytes are all
  * there. */
 void
@@ -103,8 +89,21 @@ KeepPermissions(const fs::path & replaced, const fs::path & file)
 }
 } // namespace
 
+fs::path
+ResolveOutput(fs::path output)
+{
+  std::error_code error;
+  constexpr int   longestChain = 40;
+  for (int i = 0; i < longestChain && fs::is_symlink(output, error); ++i)
+  {
+    output = output.parent_path() / fs::read_symlink(output, error);
+  }
+  const fs::path folder = fs::canonical(fs::absolute(output).parent_path(), error);
+  return error ? fs::absolute(output) : folder / output.filename();
+}
+
 TemporaryFolder::TemporaryFolder(const fs::path & output, const WarningSink & warn)
-  : m_Output(Resolve(output))
+  : m_Output(ResolveOutput(output))
 {
   std::error_code error;
   if (fs::is_directory(m_Output, error))

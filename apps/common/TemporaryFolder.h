@@ -9,6 +9,10 @@
 #include <set>
 #include <string>
 
+/** The file that a name leads to, whether it exists or not: a symbolic link is to stay one. */
+std::filesystem::path
+ResolveOutput(std::filesystem::path output);
+
 /** A hidden folder beside the output in which the output is written under its own name. The formats that write several
  * files name one in the other; these names are right from the start. When all is written, the files are renamed into
  * place. Otherwise the folder is removed, also when the program is interrupted: a half-written file never bears the

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace itk
 {
@@ -47,6 +48,28 @@ FindOffsets(const ArrayAxis & axis,
     }
   }
   return offsets;
+}
+
+/** Positions from the first to the end of the longest part whose elements lie side by side; empty where all lie
+ * outside. */
+std::pair<std::size_t, std::size_t>
+FindDensePart(const std::vector<std::ptrdiff_t> & offsets)
+{
+  std::pair<std::size_t, std::size_t> longest{ 0, 0 };
+  for (std::size_t begin = 0; begin < offsets.size();)
+  {
+    std::size_t end = begin + 1;
+    while (end < offsets.size() && offsets[begin] != Outside && offsets[end] == offsets[end - 1] + 1)
+    {
+      ++end;
+    }
+    if (offsets[begin] != Outside && end - begin > longest.second - longest.first)
+    {
+      longest = { begin, end };
+    }
+    begin = end;
+  }
+  return longest;
 }
 
 template <typename T>
@@ -144,6 +167,7 @@ GatherLabels(const ConstArrayView &  input,
     }
   }
 
+  const std::pair<std::size_t, std::size_t> dense = FindDensePart(offsets[0]);
   labels.resize(offsets[0].size() * offsets[1].size() * offsets[2].size());
   T *                       out = labels.data();
   std::vector<std::int64_t> index = place.Position;
@@ -161,18 +185,28 @@ GatherLabels(const ConstArrayView &  input,
       setIndex(1, y);
       const bool      isOutside = offsets[2][z] == Outside || offsets[1][y] == Outside;
       const T * const row = isOutside ? nullptr : data + offsets[2][z] + offsets[1][y];
-      for (std::size_t x = 0; x < offsets[0].size(); ++x)
+      std::size_t     x = 0;
+      const auto      copyUntil = [&](const std::size_t end) {
+        for (; x < end; ++x)
+        {
+          if (row != nullptr && offsets[0][x] != Outside)
+          {
+            *out++ = row[offsets[0][x]];
+          }
+          else
+          {
+            setIndex(0, x);
+            *out++ = AskBoundary<T>(boundary, whole, index);
+          }
+        }
+      };
+      if (row != nullptr && dense.first < dense.second)
       {
-        if (row != nullptr && offsets[0][x] != Outside)
-        {
-          *out++ = row[offsets[0][x]];
-        }
-        else
-        {
-          setIndex(0, x);
-          *out++ = AskBoundary<T>(boundary, whole, index);
-        }
+        copyUntil(dense.first);
+        out = std::copy_n(row + offsets[0][x], dense.second - dense.first, out);
+        x = dense.second;
       }
+      copyUntil(offsets[0].size());
     }
   }
 }

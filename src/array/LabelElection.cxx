@@ -59,50 +59,57 @@ public:
   void
   WriteRow(const std::ptrdiff_t y, const std::ptrdiff_t z, const ChildRow<double> & children) override
   {
-    m_Row.resize(children.GetSize());
-    children.CopyTo(ElementType::Double, m_Row.data());
-
     const auto &         perVoxel = m_Election.m_Children;
     const std::ptrdiff_t childY = perVoxel[1] * m_Box.Begin[1] + y;
     const std::ptrdiff_t childZ = perVoxel[2] * m_Box.Begin[2] + z;
+    const Range          mixed = m_Election.GetMixedRange(childY / perVoxel[1], childZ / perVoxel[2]);
+    const std::ptrdiff_t begin = std::max(mixed.Begin, m_Box.Begin[0]);
+    const std::ptrdiff_t end = std::min(mixed.End, m_Box.End[0]);
+    if (begin >= end)
+    {
+      return;
+    }
+    m_Row.resize(children.GetSize());
+    children.CopyTo(ElementType::Double, m_Row.data());
+    const double * const votes = m_Row.data() + perVoxel[0] * (begin - m_Box.Begin[0]);
     const std::ptrdiff_t first =
-      (childZ * perVoxel[1] * m_Election.GetSize(1) + childY) * perVoxel[0] * m_Election.GetSize(0) +
-      perVoxel[0] * m_Box.Begin[0];
+      ((childZ * perVoxel[1] * m_Election.GetSize(1) + childY) * m_Election.GetSize(0) + begin) * perVoxel[0];
+    const std::ptrdiff_t count = perVoxel[0] * (end - begin);
     if (m_OnlyOther != nullptr)
     {
-      this->CountDuel(first);
+      this->CountDuel(votes, first, count);
     }
     else
     {
-      this->Count(first);
+      this->Count(votes, first, count);
     }
   }
 
 private:
   /** Of two labels, the one with more than half of the vote wins; otherwise the parent's label, which stands there. */
   void
-  CountDuel(const std::ptrdiff_t first)
+  CountDuel(const double * const votes, const std::ptrdiff_t first, const std::ptrdiff_t count)
   {
     T * const winners = m_Election.m_Winners.data() + first;
     const T   label = m_Label;
     const T   other = *m_OnlyOther;
-    for (std::size_t x = 0; x < m_Row.size(); ++x)
+    for (std::ptrdiff_t x = 0; x < count; ++x)
     {
-      const double vote = m_Row[x];
+      const double vote = votes[x];
       winners[x] = vote > 0.5 ? label : vote < 0.5 ? other : winners[x];
     }
   }
 
   /** Labels come in ascending order: a later one needs more, or to be the parent's. */
   void
-  Count(const std::ptrdiff_t first)
+  Count(const double * const votes, const std::ptrdiff_t first, const std::ptrdiff_t count)
   {
     T * const       winners = m_Election.m_Winners.data() + first;
     const T * const parents = m_Election.m_Parents.data() + first;
     double * const  most = m_Election.m_Votes.data() + first;
-    for (std::size_t x = 0; x < m_Row.size(); ++x)
+    for (std::ptrdiff_t x = 0; x < count; ++x)
     {
-      const double vote = m_Row[x];
+      const double vote = votes[x];
       if (vote > most[x] || (vote == most[x] && parents[x] == m_Label))
       {
         most[x] = vote;
@@ -205,6 +212,26 @@ LabelElection<T>::FindCandidates() const -> std::vector<Candidate>
 }
 
 template <typename T>
+void
+LabelElection<T>::FindMixedRanges()
+{
+  for (std::ptrdiff_t z = 0; z < this->GetSize(2); ++z)
+  {
+    for (std::ptrdiff_t y = 0; y < this->GetSize(1); ++y)
+    {
+      const std::uint8_t * const row = m_Mixed.data() + this->GetOffset(y, z);
+      const auto * const         begin = std::find(row, row + this->GetSize(0), 1);
+      const auto *               end = row + this->GetSize(0);
+      while (end > begin && end[-1] == 0)
+      {
+        --end;
+      }
+      m_MixedRanges.push_back({ begin - row, end - row });
+    }
+  }
+}
+
+template <typename T>
 LabelBlockBox
 LabelElection<T>::FindVoters(const LabelBlockBox & within) const
 {
@@ -213,16 +240,12 @@ LabelElection<T>::FindVoters(const LabelBlockBox & within) const
   {
     for (std::ptrdiff_t y = within.Begin[1]; y < within.End[1]; ++y)
     {
-      const std::uint8_t * const row = m_Mixed.data() + this->GetOffset(y, z);
-      const auto * const         begin = std::find(row + within.Begin[0], row + within.End[0], 1);
-      const auto *               end = row + within.End[0];
-      while (end > begin && end[-1] == 0)
-      {
-        --end;
-      }
+      const Range          mixed = this->GetMixedRange(y, z);
+      const std::ptrdiff_t begin = std::max(mixed.Begin, within.Begin[0]);
+      const std::ptrdiff_t end = std::min(mixed.End, within.End[0]);
       if (begin < end)
       {
-        voters.Include(begin - row, end - row, y, z);
+        voters.Include(begin, end, y, z);
       }
     }
   }
@@ -247,6 +270,7 @@ template <typename T>
 void
 LabelElection<T>::Run(Kernel<double> & kernel, const int reach, const bool isExact)
 {
+  this->FindMixedRanges();
   const std::vector<Candidate> candidates = this->FindCandidates();
   const bool                   isDuel = isExact && candidates.size() == 2;
   if (!isDuel)

@@ -88,9 +88,26 @@ private:
   void
   PrepareVotes();
 
+  /** Finds where each row of voxels has some to vote on. */
+  void
+  FindMixedRanges();
+
   /** The voxels to vote on within a box. */
   LabelBlockBox
   FindVoters(const LabelBlockBox & within) const;
+
+  /** Voxels along x, of which none is to be voted on before the first and none after the last. */
+  struct Range
+  {
+    std::ptrdiff_t Begin;
+    std::ptrdiff_t End;
+  };
+
+  const Range &
+  GetMixedRange(const std::ptrdiff_t y, const std::ptrdiff_t z) const
+  {
+    return m_MixedRanges[static_cast<std::size_t>(z * this->GetSize(1) + y)];
+  }
 
   /** Of the block's first voxel along x, in row y of plane z. */
   std::size_t
@@ -111,6 +128,7 @@ private:
   std::array<std::ptrdiff_t, 3>     m_Halo;
   /** 2 along axes that are subdivided, else 1. */
   std::array<std::ptrdiff_t, 3> m_Children;
+  std::vector<Range>            m_MixedRanges;
   std::vector<T>                m_Winners;
   /** Of all children, the parents' labels and the winners' votes; only if there are more than two labels. */
   std::vector<T>      m_Parents;

@@ -22,7 +22,7 @@ namespace
 {
 
 /** Voxels of a block along x, y and z, found by measurement: little halo, and few blocks with more than one label. */
-constexpr std::uint64_t BlockSize[3][3] = { { 4096, 1, 1 }, { 256, 1, 64 }, { 64, 24, 24 } };
+constexpr std::uint64_t BlockSize[3][3] = { { 4096, 1, 1 }, { 256, 1, 64 }, { 48, 16, 16 } };
 
 /** A scheme without a tension ignores what there is, such as the default of labels, which other checks refuse. */
 Options

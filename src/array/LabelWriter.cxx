@@ -118,9 +118,8 @@ LabelWriter::Copy(const LabelBlockPlace & place, const std::vector<T> & labels) 
       [&](OutType * const row, const std::ptrdiff_t count, const std::ptrdiff_t stride, const std::ptrdiff_t from) {
         if (stride == 1)
         {
-          std::transform(labels.data() + from, labels.data() + from + count, row, [](const T label) {
-            return static_cast<OutType>(label);
-          });
+          // Between equal types this moves memory.
+          std::copy_n(labels.data() + from, count, row);
           return;
         }
         for (std::ptrdiff_t x = 0; x < count; ++x)

@@ -17,6 +17,7 @@ class RestoredSweep final : public BasicSweep<T, VX, VY>
 public:
   explicit RestoredSweep(const SweepSettings & settings)
     : BasicSweep<T, VX, VY>(settings)
+    , m_IsCorrected(settings.Tension > 0)
   {
     this->Allocate([this](Layout<T> & layout) {
       m_Sharpening.Allocate(layout);
@@ -45,9 +46,12 @@ protected:
     const auto sharpened = rowsOf(m_Sharpening.Advance(shape, this->m_Input, n, hasZ));
     const auto values = rowsOf(this->m_Input[p]);
     m_Smooth.FilterAlongY(shape, 0, shape.Height, BSplinePass, sharpened, sharpened, m_Smooth.Values(), p);
-    m_Linear.FilterAlongY(shape, 0, shape.Height, LinearPass, values, values, m_Linear.Values(), p);
     m_Range.Advance(shape, this->m_Input[p], p);
-    m_Restoration.Advance(shape, this->m_Input, p, hasZ);
+    if (m_IsCorrected)
+    {
+      m_Linear.FilterAlongY(shape, 0, shape.Height, LinearPass, values, values, m_Linear.Values(), p);
+      m_Restoration.Advance(shape, this->m_Input, p, hasZ);
+    }
   }
 
   void
@@ -56,10 +60,17 @@ protected:
     const Shape & shape = this->m_Shape;
     const bool    hasZ = this->HasZ();
     m_Smooth.FilterAlongZ(shape, hasZ, BSplinePass, row, yChild, first, planes);
-    m_Linear.FilterAlongZ(shape, hasZ, LinearPass, row, yChild, first, planes);
     for (int i = 0; i < planes; ++i)
     {
       m_Range.FindRow(shape, hasZ, row, first + i, i);
+    }
+    if (!m_IsCorrected)
+    {
+      return;
+    }
+    m_Linear.FilterAlongZ(shape, hasZ, LinearPass, row, yChild, first, planes);
+    for (int i = 0; i < planes; ++i)
+    {
       m_Restoration.FindRow(shape, hasZ, this->m_Settings.Tension, row, first + i, i);
     }
   }
@@ -70,7 +81,10 @@ protected:
     if constexpr (VX)
     {
       const Restore restore = this->MakeRestore(plane, m_LinearChildren, this->m_Children);
-      m_Linear.FilterAlongX(this->m_Shape, LinearPass, plane, zChild, ChildrenAlongX<T>{ m_LinearChildren });
+      if (m_IsCorrected)
+      {
+        m_Linear.FilterAlongX(this->m_Shape, LinearPass, plane, zChild, ChildrenAlongX<T>{ m_LinearChildren });
+      }
       m_Smooth.FilterAlongX(this->m_Shape, BSplinePass, plane, zChild, restore);
       return this->m_Children;
     }
@@ -120,6 +134,9 @@ private:
   {
     return { linear, m_Range.GetLow(plane), m_Range.GetHigh(plane), m_Restoration.GetLimit(plane), restored };
   }
+
+  /** Without a tension T is 0, as the memory of the limits is from the start, and A f is not needed. */
+  const bool m_IsCorrected;
 
   Sharpening<T, VX, VY>             m_Sharpening;
   SeparablePasses<T, VX, VY, false> m_Smooth;

@@ -52,6 +52,39 @@ def test_mirror_boundary():
     np.testing.assert_allclose(1024.0 * lines, [NON_OSCILLATORY] * 6, rtol=0, atol=1e-3)
 
 
+def test_a_scheme_by_name():
+    step = [0] * 9 + [9679 / 32768, 23089 / 32768] + [1] * 9
+    subdivision = itk.NonOscillatorySubdivisionImageFilter.New(step_image())
+    subdivision.SetSchemeByName("restored")
+    subdivision.SetSubdividedAxis(1, False)
+    subdivision.Update()
+    np.testing.assert_allclose(itk.array_from_image(subdivision.GetOutput()), [step] * 3, rtol=0, atol=1e-6)
+    try:
+        subdivision.SetSchemeByName("cubic")
+    except RuntimeError as error:
+        assert "bspline" in str(error)
+    else:
+        raise AssertionError("an unknown scheme was accepted")
+
+
+def test_labels_stay_labels():
+    labels = np.zeros((12, 14), dtype=np.uint8)
+    labels[2:6, 3:9] = 3
+    labels[7:11, 5:12] = 7
+    doubled = itk.array_from_image(itk.label_subdivision_image_filter(itk.image_from_array(labels)))
+    assert doubled.shape == (24, 28)
+    assert set(np.unique(doubled)) == {0, 3, 7}
+    assert (doubled[6:10, 8:16] == 3).all()
+
+
+def test_fidelity():
+    image = step_image()
+    calculator = itk.ImageFidelityCalculator.New(image)
+    calculator.SetTestImage(image)
+    calculator.Update()
+    assert calculator.GetRelativeL2Error() == 0
+
+
 def test_wrong_tension_is_an_error():
     try:
         itk.non_oscillatory_subdivision_image_filter(step_image(), tension=0.5)
@@ -62,8 +95,6 @@ def test_wrong_tension_is_an_error():
 
 
 if __name__ == "__main__":
-    test_values_of_each_scheme()
-    test_geometry()
-    test_one_axis_alone()
-    test_mirror_boundary()
-    test_wrong_tension_is_an_error()
+    for name, test in list(globals().items()):
+        if name.startswith("test_"):
+            test()

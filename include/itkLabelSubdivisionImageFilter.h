@@ -21,8 +21,9 @@ namespace itk
  * others are refused on update.
  *
  * Pixels are integers of 8 to 64 bits; if those of the output have another type, every label must fit it. Labels that a
- * ConstantBoundaryCondition, or one that is asked, supplies must be below 2^53 in magnitude. Geometry, axes, boundary conditions, streaming, threads and progress are those of NonOscillatorySubdivisionImageFilter. The
- * result depends on the input and the options alone, not even on the instruction set where the tension is 0.
+ * ConstantBoundaryCondition, or one that is asked, supplies must be below 2^53 in magnitude. Geometry, axes, boundary
+ * conditions, streaming, threads and progress are those of NonOscillatorySubdivisionImageFilter. The result depends on
+ * the input and the options alone, not even on the instruction set where the tension is 0.
  *
  * \throw itk::ExceptionObject on update, as NonOscillatorySubdivisionImageFilter does, and if a label does not fit.
  *

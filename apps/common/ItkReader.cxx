@@ -145,6 +145,10 @@ GetReason(const std::exception & error)
 ItkReader::ItkReader(const std::string & path)
   : m_Path(path)
 {
+  if (HasNiftiEndingInMixedCase(path))
+  {
+    FailToRead(path, "NIfTI files' endings are in small letters or in capitals, not in both; rename it");
+  }
   if (IsNiftiPair(path))
   {
     FindNiftiPair(path); // says which file of the two is not there
@@ -158,12 +162,9 @@ ItkReader::ItkReader(const std::string & path)
   }
   if (m_ImageIO.IsNull())
   {
-    FailToRead(
-      path,
-      HasNiftiEndingInMixedCase(path)
-        ? "NIfTI files' endings are in small letters or in capitals, not in both; rename it"
-        : "it is in none of the known image formats, which SubdivideVolume --formats lists; --raw reads voxels "
-          "without a header");
+    FailToRead(path,
+               "it is in none of the known image formats, which SubdivideVolume --formats lists; --raw reads voxels "
+               "without a header");
   }
   const std::string mistaken = GetMistakenNiftiEnding(path);
   m_Links = mistaken.empty() ? nullptr : LinkFolder::Get();

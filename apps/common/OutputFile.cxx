@@ -119,6 +119,10 @@ OutputFile::WriteAt(std::uint64_t offset, const void * bytes, std::uint64_t coun
     {
       Fail(m_Meant, std::strerror(written < 0 ? errno : ENOSPC));
     }
+#ifdef __linux__
+    // The disk begins at once, so that bringing the file to it does not take as long again at the end. A hint.
+    (void)sync_file_range(m_Descriptor, static_cast<off_t>(offset), written, SYNC_FILE_RANGE_WRITE);
+#endif
     bytes = static_cast<const char *>(bytes) + written;
     offset += static_cast<std::uint64_t>(written);
     count -= static_cast<std::uint64_t>(written);

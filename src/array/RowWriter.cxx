@@ -121,7 +121,20 @@ RowWriter<TReal>::WriteRow(const std::ptrdiff_t y, const std::ptrdiff_t z, const
       CopyElements(bytes, wanted, static_cast<std::ptrdiff_t>(bytes), m_Count, row, step);
     }
   }
-  m_Monitor.Completed(m_Count);
+  m_Unreported += m_Count;
+  if (m_Unreported >= ElementsPerReport)
+  {
+    this->Report();
+  }
+}
+
+template <typename TReal>
+void
+RowWriter<TReal>::Report()
+{
+  const std::size_t elements = m_Unreported;
+  m_Unreported = 0;
+  m_Monitor.Completed(elements);
 }
 
 template <typename TReal>

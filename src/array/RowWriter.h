@@ -37,7 +37,14 @@ public:
   void
   WriteRow(std::ptrdiff_t y, std::ptrdiff_t z, const ChildRow<TReal> & children) override;
 
+  /** Tells the monitor of what was written since it was last told. To be called at the end. */
+  void
+  Report();
+
 private:
+  /** Threads that tell a monitor of every row would wait for each other. */
+  static constexpr std::size_t ElementsPerReport = std::size_t{ 1 } << 16;
+
   /** Outputs larger than the last-level cache of common processors, in bytes, are written past it. */
   static constexpr std::uint64_t CacheSize = std::uint64_t{ 16 } << 20;
 
@@ -61,6 +68,7 @@ private:
   const Box &     m_Tile;
   TileMonitor &   m_Monitor;
   bool            m_CountsLosses;
+  std::size_t     m_Unreported{ 0 };
 
   /** The children of a row that the output has: how many come before them, and how many they are. */
   std::size_t m_Skipped;

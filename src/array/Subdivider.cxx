@@ -156,6 +156,7 @@ struct Subdivider::Implementation
         writer.WriteRow(0, 0, ChildRow<TReal>(scratch->Values.data(), size.X, false, *Plan.Target));
       }
     });
+    writer.Report();
   }
 
   /** A tile of which no axis is subdivided and no element is changed. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "array/LabelBlock.h"
 
+#include "array/LabelTypes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -251,14 +253,7 @@ FindMixed(const std::vector<T> &             labels,
                              const std::array<std::size_t, 3> &, \
                              const std::array<bool, 3> &,        \
                              std::vector<std::uint8_t> &)
-SubdivisionInstantiateLabelBlock(std::uint8_t);
-SubdivisionInstantiateLabelBlock(std::int8_t);
-SubdivisionInstantiateLabelBlock(std::uint16_t);
-SubdivisionInstantiateLabelBlock(std::int16_t);
-SubdivisionInstantiateLabelBlock(std::uint32_t);
-SubdivisionInstantiateLabelBlock(std::int32_t);
-SubdivisionInstantiateLabelBlock(std::uint64_t);
-SubdivisionInstantiateLabelBlock(std::int64_t);
+SubdivisionForEachLabelType(SubdivisionInstantiateLabelBlock);
 #undef SubdivisionInstantiateLabelBlock
 
 } // namespace Subdivision

@@ -297,14 +297,9 @@ LabelElection<T>::Run(Kernel<double> & kernel, const int reach, const bool isExa
   }
 }
 
-template class LabelElection<std::uint8_t>;
-template class LabelElection<std::int8_t>;
-template class LabelElection<std::uint16_t>;
-template class LabelElection<std::int16_t>;
-template class LabelElection<std::uint32_t>;
-template class LabelElection<std::int32_t>;
-template class LabelElection<std::uint64_t>;
-template class LabelElection<std::int64_t>;
+#define SubdivisionInstantiateLabelElection(T) template class LabelElection<T>
+SubdivisionForEachLabelType(SubdivisionInstantiateLabelElection);
+#undef SubdivisionInstantiateLabelElection
 
 } // namespace Subdivision
 } // namespace itk

@@ -3,6 +3,7 @@
 #define NonOscillatorySubdivision_LabelElection_h
 
 #include "NonOscillatorySubdivision/Kernel.h"
+#include "array/LabelTypes.h"
 
 #include <algorithm>
 #include <array>
@@ -135,14 +136,9 @@ private:
   std::vector<double> m_Votes;
 };
 
-extern template class LabelElection<std::uint8_t>;
-extern template class LabelElection<std::int8_t>;
-extern template class LabelElection<std::uint16_t>;
-extern template class LabelElection<std::int16_t>;
-extern template class LabelElection<std::uint32_t>;
-extern template class LabelElection<std::int32_t>;
-extern template class LabelElection<std::uint64_t>;
-extern template class LabelElection<std::int64_t>;
+#define SubdivisionDeclareLabelElection(T) extern template class LabelElection<T>
+SubdivisionForEachLabelType(SubdivisionDeclareLabelElection);
+#undef SubdivisionDeclareLabelElection
 
 } // namespace Subdivision
 } // namespace itk

@@ -2,6 +2,7 @@
 #include "array/LabelWriter.h"
 
 #include "NonOscillatorySubdivision/Geometry.h"
+#include "array/LabelTypes.h"
 
 #include <algorithm>
 #include <limits>
@@ -134,14 +135,7 @@ LabelWriter::Copy(const LabelBlockPlace & place, const std::vector<T> & labels) 
 #define SubdivisionInstantiateLabelWriter(T)                                   \
   template std::size_t LabelWriter::Fill<T>(const LabelBlockPlace &, T) const; \
   template std::size_t LabelWriter::Copy<T>(const LabelBlockPlace &, const std::vector<T> &) const
-SubdivisionInstantiateLabelWriter(std::uint8_t);
-SubdivisionInstantiateLabelWriter(std::int8_t);
-SubdivisionInstantiateLabelWriter(std::uint16_t);
-SubdivisionInstantiateLabelWriter(std::int16_t);
-SubdivisionInstantiateLabelWriter(std::uint32_t);
-SubdivisionInstantiateLabelWriter(std::int32_t);
-SubdivisionInstantiateLabelWriter(std::uint64_t);
-SubdivisionInstantiateLabelWriter(std::int64_t);
+SubdivisionForEachLabelType(SubdivisionInstantiateLabelWriter);
 #undef SubdivisionInstantiateLabelWriter
 
 } // namespace Subdivision

@@ -40,6 +40,7 @@ public:
     : m_Filter(filter)
     , m_Elements(elements)
     , m_UpdatingThread(std::this_thread::get_id())
+    , m_HasObserver(filter->HasObserver(ProgressEvent()))
   {}
 
   /** Computes all tiles of a run.
@@ -117,7 +118,7 @@ private:
     {
       this->Report();
     }
-    else if (this->GetStep(before) != this->GetStep(before + elements))
+    else if (m_HasObserver && this->GetStep(before) != this->GetStep(before + elements))
     {
       m_Changed.notify_one();
     }
@@ -182,9 +183,12 @@ private:
     }
   }
 
-  ProcessObject *          m_Filter;
-  std::size_t              m_Elements;
-  std::thread::id          m_UpdatingThread;
+  ProcessObject * m_Filter;
+  std::size_t     m_Elements;
+  std::thread::id m_UpdatingThread;
+  /** Whether anybody waits to be told. Waking the updating thread for nobody takes the threads that compute off theirs.
+   */
+  bool                     m_HasObserver;
   std::atomic<std::size_t> m_Done{ 0 };
   std::size_t              m_ReportedStep{ 0 };
   std::atomic<bool>        m_IsStopped{ false };

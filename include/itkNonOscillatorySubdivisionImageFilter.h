@@ -50,7 +50,7 @@ namespace itk
  * condition needs it. Between updates it keeps what it computes in, some megabytes for each thread.
  *
  * Progress is reported by the thread that updates the filter; an abort, by an observer or another thread, keeps all
- * threads from going on.
+ * threads from going on. ITK itself forgets an abort that was asked for before the first progress, as in a StartEvent.
  *
  * \throw itk::ExceptionObject on update, when an option is out of its range (see its setter), the input is missing or
  * empty, the pixels of input and output differ in their number of components, or doubled indices do not fit 64 bits.

@@ -35,8 +35,12 @@ RowWriter<TReal>::RowWriter(const RunPlan &              plan,
   : m_Plan(plan)
   , m_Axes(axes)
   , m_Tile(tile)
+  , m_Y(this->GetLine(axes.Y))
+  , m_Z(this->GetLine(axes.Z))
   , m_Monitor(monitor)
   , m_CountsLosses(monitor.CountsLosses() && IsInteger(plan.OutputType))
+  , m_Bytes(SizeOf(plan.OutputType))
+  , m_Step(plan.Axes[axes.X].OutputStep)
   , m_IsLarge(GetBytes(plan) > CacheSize)
   , m_Buffer(buffer)
 {
@@ -46,6 +50,7 @@ RowWriter<TReal>::RowWriter(const RunPlan &              plan,
                                     static_cast<std::int64_t>(plan.Axes[axes.X].Outputs));
   m_Skipped = static_cast<std::size_t>(begin - children.First);
   m_Count = static_cast<std::size_t>(end - begin);
+  m_Buffer.resize(std::max<std::size_t>(m_Buffer.size(), children.Size * m_Bytes));
 }
 
 template <typename TReal>
@@ -55,6 +60,18 @@ RowWriter<TReal>::GetChildren(const std::size_t axis) const
   const RunAxis & run = m_Plan.Axes[axis];
   return { run.GetChildren() * m_Tile[axis].First - run.FirstOutput,
            static_cast<std::uint64_t>(run.GetChildren()) * m_Tile[axis].Size };
+}
+
+template <typename TReal>
+auto
+RowWriter<TReal>::GetLine(const std::size_t axis) const -> Line
+{
+  if (axis == TileAxes::None)
+  {
+    return {};
+  }
+  const RunAxis & run = m_Plan.Axes[axis];
+  return { this->GetChildren(axis).First, static_cast<std::int64_t>(run.Outputs), run.OutputStep };
 }
 
 template <typename TReal>
@@ -73,34 +90,15 @@ RowWriter<TReal>::SetImage(const std::vector<std::int64_t> & position)
 }
 
 template <typename TReal>
-bool
-RowWriter<TReal>::MoveTo(const std::size_t axis, const std::ptrdiff_t child, unsigned char *& row) const
-{
-  if (axis == TileAxes::None)
-  {
-    return true;
-  }
-  const std::int64_t output = this->GetChildren(axis).First + child;
-  if (output < 0 || output >= static_cast<std::int64_t>(m_Plan.Axes[axis].Outputs))
-  {
-    return false;
-  }
-  row += output * m_Plan.Axes[axis].OutputStep;
-  return true;
-}
-
-template <typename TReal>
 void
 RowWriter<TReal>::WriteRow(const std::ptrdiff_t y, const std::ptrdiff_t z, const ChildRow<TReal> & children)
 {
-  unsigned char * row = m_Image;
-  if (!this->MoveTo(m_Axes.Y, y, row) || !this->MoveTo(m_Axes.Z, z, row))
+  if (!m_Y.Has(y) || !m_Z.Has(z))
   {
     return;
   }
-  const std::size_t    bytes = SizeOf(m_Plan.OutputType);
-  const std::ptrdiff_t step = m_Plan.Axes[m_Axes.X].OutputStep;
-  const bool           isDense = step == static_cast<std::ptrdiff_t>(bytes);
+  unsigned char * const row = m_Image + m_Y.GetOffset(y) + m_Z.GetOffset(z);
+  const bool            isDense = m_Step == static_cast<std::ptrdiff_t>(m_Bytes);
   if (isDense && !m_IsLarge && m_Count == children.GetSize())
   {
     children.CopyTo(m_Plan.OutputType, row);
@@ -108,17 +106,16 @@ RowWriter<TReal>::WriteRow(const std::ptrdiff_t y, const std::ptrdiff_t z, const
   }
   else
   {
-    m_Buffer.resize(std::max(m_Buffer.size(), children.GetSize() * bytes));
     children.CopyTo(m_Plan.OutputType, m_Buffer.data());
-    const unsigned char * const wanted = m_Buffer.data() + m_Skipped * bytes;
+    const unsigned char * const wanted = m_Buffer.data() + m_Skipped * m_Bytes;
     this->CountLosses(children, wanted);
     if (isDense && m_IsLarge)
     {
-      m_Streams[static_cast<std::size_t>(z) % Streams].Copy(wanted, m_Count * bytes, row);
+      m_Streams[static_cast<std::size_t>(z) % Streams].Copy(wanted, m_Count * m_Bytes, row);
     }
     else
     {
-      CopyElements(bytes, wanted, static_cast<std::ptrdiff_t>(bytes), m_Count, row, step);
+      CopyElements(m_Bytes, wanted, static_cast<std::ptrdiff_t>(m_Bytes), m_Count, row, m_Step);
     }
   }
   m_Unreported += m_Count;

@@ -51,13 +51,33 @@ private:
   /** So many planes of children come in turns, whose rows follow one another. */
   static constexpr std::size_t Streams = 12;
 
+  /** The outputs along y or z; one alone where the tile lacks the axis. */
+  struct Line
+  {
+    /** The output that is the first child of the tile; may be negative. */
+    std::int64_t   First{ 0 };
+    std::int64_t   Outputs{ 1 };
+    std::ptrdiff_t Step{ 0 };
+
+    bool
+    Has(const std::int64_t child) const
+    {
+      return First + child >= 0 && First + child < Outputs;
+    }
+
+    std::ptrdiff_t
+    GetOffset(const std::int64_t child) const
+    {
+      return (First + child) * Step;
+    }
+  };
+
   /** Children of the tile along an axis, counted from the first output. */
   Interval
   GetChildren(std::size_t axis) const;
 
-  /** Moves a pointer to a child along an axis that the tile may lack; whether the output has that child. */
-  bool
-  MoveTo(std::size_t axis, std::ptrdiff_t child, unsigned char *& row) const;
+  Line
+  GetLine(std::size_t axis) const;
 
   /** Tells the monitor what the elements of a row could not hold. */
   void
@@ -66,9 +86,15 @@ private:
   const RunPlan & m_Plan;
   TileAxes        m_Axes;
   const Box &     m_Tile;
+  Line            m_Y;
+  Line            m_Z;
   TileMonitor &   m_Monitor;
   bool            m_CountsLosses;
   std::size_t     m_Unreported{ 0 };
+
+  /** Bytes of an element, and from one to the next of a row. */
+  std::size_t    m_Bytes;
+  std::ptrdiff_t m_Step;
 
   /** The children of a row that the output has: how many come before them, and how many they are. */
   std::size_t m_Skipped;

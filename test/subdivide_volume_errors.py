@@ -33,6 +33,17 @@ class Errors(ProgramTest):
                                 (files + ["--scheme"], "--scheme")):
             self.assert_fails(self.run_program(*arguments), 2, word)
 
+    def test_numbers_that_are_none(self):
+        write_meta(self.path("in.mha"), [6, 5, 4], "f", noise(120))
+        files = [self.path("in.mha"), self.path("out.mha")]
+        for option in ("--tension", "--levels", "--threads", "--streams", "--memory", "--compression-level", "--channel",
+                       "--frame", "--spacing", "--origin", "--raw", "--piece"):
+            for value in ("nan", "-inf", "", "1e400", "1,nan", "two") + (() if option == "--origin" else ("-1",)):
+                with self.subTest(option=option, value=value):
+                    self.assert_fails(self.run_program(*files, option, value), 2, option)
+        for value in ("nan", "inf", "-inf"):
+            self.assert_fails(self.run_program(*files, f"--boundary={value}"), 1, value)
+
     def test_options_that_do_not_fit_the_image(self):
         write_meta(self.path("in.mha"), [6, 5], "B", noise(30, 0, 256))
         files = [self.path("in.mha"), self.path("out.mha")]
@@ -109,11 +120,16 @@ class Errors(ProgramTest):
                            ("folder.mha", "Is a directory"), ("out.png", "float"), ("out.jpg", "float")):
             self.assert_fails(self.run_program(self.path("in.mha"), self.path(name)), 1, name, word)
 
-    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
     def test_a_folder_that_must_not_be_written(self):
         write_meta(self.path("in.mha"), [6, 5, 4], "h", noise(120))
-        os.mkdir(self.path("locked"), 0o500)
-        self.assert_fails(self.run_program(self.path("in.mha"), self.path("locked/out.mha")), 1, "Permission denied")
+        os.mkdir(self.path("locked"), 0o555)
+        os.chmod(self.folder, 0o755)
+        nobody = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
+        for name in ("locked/out.mha", "locked/out.nii", "locked/out.tif", "locked/out/"):
+            with self.subTest(name=name):
+                result = self.run_program("--quiet", self.path("in.mha"), self.path(name), **nobody)
+                self.assert_fails(result, 1, "Permission denied")
+        self.assertEqual(os.listdir(self.path("locked")), [])
 
     def test_an_output_that_would_replace_the_data_of_another(self):
         write_meta(self.path("in.mha"), [6, 5, 4], "h", noise(120))

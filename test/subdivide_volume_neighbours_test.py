@@ -75,6 +75,16 @@ class Neighbours(ProgramTest):
         write_nifti(self.path("in.Nii"), SIZE, noise(COUNT))
         self.assert_fails(self.run_program(self.path("in.Nii"), self.path("out.mha")), 1, "capitals")
 
+    def test_endings_in_capitals_and_both_cases_are_read_back(self):
+        write_meta(self.path("truth.mha"), SIZE, "h", noise(COUNT, seed=3))
+        self.subdivide("truth.mha", "once.mha", "--axes", "x")
+        truth = self.voxels("once.mha")
+        for name in ("a.GIPL.GZ", "a.Gipl.Gz", "a.gipl.GZ", "a.GIPL", "a.MHA", "a.Mhd", "a.NRRD", "b.Nhdr", "a.NII.GZ",
+                     "a.VTK", "a.Hdf5", "a.TIF", "a.Tiff", "a.MRC"):
+            self.subdivide("truth.mha", name, "--axes", "x")
+            with self.subTest(name=name):
+                self.assertEqual(self.voxels(name), truth)
+
     def test_voxels_as_text(self):
         values = noise(COUNT, seed=4)
         text = " ".join(map(str, values))

@@ -35,6 +35,17 @@ class Reports(ProgramTest):
 class Counts(Reports):
     """NaN, infinite and clamped voxels are counted, each once, in any pieces."""
 
+    def test_integers_that_double_does_not_hold(self):
+        for pixel, value, warns in (("q", 2**53 + 1, True), ("q", -2**62, True), ("Q", 2**64 - 1, True),
+                                    ("q", 2**53 - 1, False), ("Q", 2**53 - 1, False), ("d", 2.0**60, False)):
+            write_meta(self.path("in.mha"), [4, 3, 2], pixel, [0] * 23 + [value])
+            for options in ([], ["--streams", "3"], ["--labels"] if pixel != "d" else []):
+                result = self.run_program("--json", *options, self.path("in.mha"), self.path("out.mha"))
+                count = 1 if warns and "--labels" not in options else 0
+                with self.subTest(value=value, options=options):
+                    self.assertEqual((result.returncode, result.stderr.count("2^53")), (0, count), result.stderr)
+                    self.assertEqual(len(json.loads(result.stdout)["warnings"]), count)
+
     def test_an_ordinary_run(self):
         values = noise(120, -500, 500)
         write_meta(self.path("in.mha"), [6, 5, 4], "h", values, spacing=[1, 2, 4])

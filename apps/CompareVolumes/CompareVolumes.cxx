@@ -7,6 +7,7 @@
 #include "GridComparison.h"
 #include "LibraryMessages.h"
 #include "OneLineMessage.h"
+#include "Warnings.h"
 #include "WatchedRun.h"
 
 #include "itkMacro.h"
@@ -33,15 +34,10 @@ struct Options
 constexpr double LargestShift = 1e-3;
 
 std::unique_ptr<VolumeReader>
-Open(const std::string & path, const InputOptions & input, const bool isQuiet)
+Open(const std::string & path, const InputOptions & input, Warnings & warnings)
 {
   const WatchedOpening opening(path);
-  auto                 reader = OpenVolume(path, input, [isQuiet](const std::string & warning) {
-    if (!isQuiet)
-    {
-      std::fprintf(GetTerminal(), "CompareVolumes: warning: %s\n", MakeOneLine(warning).c_str());
-    }
-  });
+  auto                 reader = OpenVolume(path, input, [&warnings](const std::string & text) { warnings.Add(text); });
   if (reader->GetDescription().NumberOfComponents != 1)
   {
     throw std::runtime_error("cannot compare " + path + ": its voxels have " +
@@ -70,18 +66,34 @@ void
 Run(const Options & options)
 {
   const LibraryMessages messages;
-  const auto            reference = Open(options.ReferencePath, options.Reference, options.Quiet);
-  const auto            test = Open(options.TestPath, options.Test, options.Quiet);
+  Warnings              warnings(options.Quiet);
+  const WarningSink     warn = [&warnings](const std::string & text) { warnings.Add(text); };
+  const auto            reference = Open(options.ReferencePath, options.Reference, warnings);
+  const auto            test = Open(options.TestPath, options.Test, warnings);
   CheckGrids(reference->GetDescription().Grid, test->GetDescription().Grid, options.IgnoreGeometry);
   const Figures figures = Compare(*reference, *test, options.How);
   CheckMessages(options.TestPath, messages.GetText());
-  PrintResult(options.Json ? ToJson(figures) : ToText(figures));
+  WarnOfRounding(options.ReferencePath,
+                 reference->GetDescription().Component,
+                 figures.ReferenceMinimum,
+                 figures.ReferenceMaximum,
+                 warn);
+  WarnOfRounding(options.TestPath, test->GetDescription().Component, figures.TestMinimum, figures.TestMaximum, warn);
+  PrintResult(options.Json ? ToJson(figures, warnings.GetAll()) : ToText(figures));
+}
+
+std::string
+CheckLevel(const std::string & text)
+{
+  return IsNumber(text) && std::stod(text) >= 0.0 && std::stod(text) <= 1.0
+           ? std::string()
+           : "it must be a number from 0 to 1, not " + text;
 }
 
 std::string
 CheckPeak(const std::string & text)
 {
-  return IsNumber(text) && !(std::stod(text) <= 0.0) && !std::isinf(std::stod(text))
+  return IsNumber(text) && std::isfinite(std::stod(text)) && std::stod(text) > 0.0
            ? std::string()
            : "it must be a finite number greater than 0, not " + text;
 }
@@ -103,7 +115,7 @@ Describe(CLI::App & app, Options & options)
         options.How.QuantileLevels.insert(options.How.QuantileLevels.end(), levels.begin(), levels.end());
       },
       "More quantiles of the relative error, by levels from 0 to 1")
-    ->check(CLI::Range(0.0, 1.0));
+    ->check(CLI::Validator(CheckLevel, ""));
   app.add_flag("--use-spacing", options.How.UseSpacing, "Take the total variation in physical space");
   app.add_flag("--ignore-geometry",
                options.IgnoreGeometry,

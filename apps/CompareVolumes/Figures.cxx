@@ -93,7 +93,7 @@ Compare(VolumeReader & reference, VolumeReader & test, const Comparison & compar
 }
 
 std::string
-ToJson(const Figures & figures)
+ToJson(const Figures & figures, const std::vector<std::string> & warnings)
 {
   nlohmann::ordered_json object;
   object["psnr_db"] = figures.PeakSignalToNoiseRatio;
@@ -116,7 +116,9 @@ ToJson(const Figures & figures)
   object["peak"] = figures.Peak;
   object["compared_voxels"] = figures.ComparedVoxels;
   object["excluded_voxels"] = figures.ExcludedVoxels;
-  return object.dump(2) + "\n";
+  object["warnings"] = warnings;
+  // Warnings have names of files, which need not be UTF-8, but JSON must.
+  return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string

@@ -41,7 +41,7 @@ Compare(VolumeReader & reference, VolumeReader & test, const Comparison & compar
 
 /** As an object; null stands for infinity and NaN. */
 std::string
-ToJson(const Figures & figures);
+ToJson(const Figures & figures, const std::vector<std::string> & warnings);
 
 std::string
 ToText(const Figures & figures);

@@ -39,7 +39,7 @@ HasValue(const double value)
 {
   if constexpr (std::is_floating_point_v<T>)
   {
-    return true;
+    return std::isfinite(static_cast<T>(value));
   }
   // The bounds are powers of two, so they are exact; the largest 64-bit integer is not a double, but one below it is.
   return value == std::floor(value) && value >= static_cast<double>(std::numeric_limits<T>::min()) &&

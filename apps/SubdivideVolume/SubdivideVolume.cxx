@@ -116,6 +116,21 @@ PassOn(const LibraryMessages & messages, Warnings & warnings)
   }
 }
 
+/** Labels are never computed with. */
+void
+WarnOfRoundedInput(const Options &          options,
+                   const ImageDescription & input,
+                   const Statistics &       range,
+                   Warnings &               warnings)
+{
+  if (!options.Labels)
+  {
+    WarnOfRounding(options.Input, input.Component, range.Minimum, range.Maximum, [&warnings](const std::string & text) {
+      warnings.Add(text);
+    });
+  }
+}
+
 void
 Inform(const Options & options)
 {
@@ -151,6 +166,7 @@ Subdivide(const Options & options)
   pipeline.Run(progress);
   CheckMessages(options.Input, messages.GetText());
   PassOn(messages, warnings);
+  WarnOfRoundedInput(options, reader->GetDescription(), counter.GetInput(), warnings);
   writer->Commit();
   progress.Finish();
   const std::string summary = Describe(Summary{ options,
@@ -179,7 +195,8 @@ MakePiece(const Options & options,
           VolumeReader &  reader,
           LevelChain &    chain,
           PieceWriter &   writer,
-          PieceFolder &   folder)
+          PieceFolder &   folder,
+          Warnings &      warnings)
 {
   const Piece piece = SelectPiece(chain.GetWholeOutput(), options.Piece, writer.SplitsPlanes());
   if (const auto checksum = folder.FindNote(options.Piece.Number))
@@ -201,6 +218,7 @@ MakePiece(const Options & options,
     Pipeline              pipeline(reader, chain, writer, counter, plan);
     pipeline.Run(progress);
     CheckMessages(options.Input, messages.GetText());
+    WarnOfRoundedInput(options, reader.GetDescription(), counter.GetInput(), warnings);
   }
   writer.Commit();
   folder.Note(options.Piece.Number, writer.ReadChecksum(folder.GetOutputFolder(), piece));
@@ -231,7 +249,7 @@ SubdividePiece(const Options & options)
   bool isComplete = false;
   try
   {
-    MakePiece(options, *reader, chain, *writer, folder);
+    MakePiece(options, *reader, chain, *writer, folder, warnings);
     isComplete = folder.Finish(*writer);
   }
   catch (const std::exception &)
@@ -256,6 +274,13 @@ SubdividePiece(const Options & options)
 }
 
 void
+ListSeries(const Options & options)
+{
+  const LibraryMessages messages;
+  PrintDicomSeries(ListDicomSeries(options.Input), stdout);
+}
+
+void
 Perform(const Options & options)
 {
   switch (options.Task)
@@ -267,7 +292,7 @@ Perform(const Options & options)
     case Task::Inform:
       return Inform(options);
     case Task::ListSeries:
-      return PrintDicomSeries(ListDicomSeries(options.Input), stdout);
+      return ListSeries(options);
     case Task::ListFormats:
       return PrintResult(DescribeFormats(options.Json));
     case Task::DescribeItself:

@@ -45,6 +45,18 @@ ParseSpacing(const std::string & text)
   return numbers;
 }
 
+/** A whole number from 0 on. */
+unsigned int
+ParseNumber(const std::string & text)
+{
+  constexpr std::size_t mostDigits = 9;
+  if (text.empty() || text.size() > mostDigits || text.find_first_not_of("0123456789") != std::string::npos)
+  {
+    throw std::invalid_argument("it must be a whole number, counted from 0, not " + text);
+  }
+  return static_cast<unsigned int>(std::stoul(text));
+}
+
 /** Adds an option whose text a function turns into its value. */
 template <typename TValue, typename TParse>
 void
@@ -120,8 +132,14 @@ AddInputOptions(CLI::App & app, InputOptions & options)
             ParseSpacing,
             "The distance between voxels, instead of the file's: one number, or one for each axis with commas between");
   AddParsed(app, "--origin", "NUMBERS", options.Origin, ParseNumbers, "The place of the first voxel, likewise");
-  app.add_option("--channel", options.Channel, "The channel to take of a file with several, counted from 0");
-  app.add_option("--frame", options.Frame, "The frame to take of a series in time, counted from 0");
+  AddParsed(app,
+            "--channel",
+            "NUMBER",
+            options.Channel,
+            ParseNumber,
+            "The channel to take of a file with several, counted from 0");
+  AddParsed(
+    app, "--frame", "NUMBER", options.Frame, ParseNumber, "The frame to take of a series in time, counted from 0");
 }
 
 void

@@ -112,13 +112,30 @@ FindByEnding(const std::string & path)
       continue;
     }
     const auto & known = imageIO->GetSupportedReadExtensions();
-    const bool   isGipl = ending == ".gipl" && std::string(imageIO->GetNameOfClass()) == "GiplImageIO"; // it lists none
-    if (isGipl || std::find(known.begin(), known.end(), ending) != known.end())
+    if (std::find(known.begin(), known.end(), ending) != known.end())
     {
       return imageIO;
     }
   }
   return nullptr;
+}
+
+/** The ending in small letters under which ITK reads a file whose own it does not know; empty if it knows that. GIPL's
+ * reader lists no endings, and finds out by them whether the file is compressed. */
+std::string
+GetKnownEnding(const std::string & path)
+{
+  const std::string name = std::filesystem::path(path).filename().string();
+  for (const std::string ending : { ".gipl", ".gipl.gz" })
+  {
+    const std::size_t length = std::min(name.size(), ending.size());
+    const std::string own = name.substr(name.size() - length);
+    if (own != ending && ToLower(own) == ending)
+    {
+      return ending;
+    }
+  }
+  return GetMistakenNiftiEnding(path);
 }
 
 bool
@@ -154,7 +171,10 @@ ItkReader::ItkReader(const std::string & path)
     FindNiftiPair(path); // says which file of the two is not there
   }
   InputFile{ path }; // says why it cannot be opened, and keeps pipes from being waited for
-  m_ImageIO = itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::IOFileModeEnum::ReadMode);
+  const std::string known = GetKnownEnding(path);
+  m_Links = known.empty() ? nullptr : LinkFolder::Get();
+  const std::string name = m_Links == nullptr ? path : m_Links->Link(path, known);
+  m_ImageIO = itk::ImageIOFactory::CreateImageIO(name.c_str(), itk::IOFileModeEnum::ReadMode);
   const std::string ending = std::filesystem::path(path).extension().string();
   if (m_ImageIO.IsNull() && ending != ToLower(ending))
   {
@@ -166,11 +186,9 @@ ItkReader::ItkReader(const std::string & path)
                "it is in none of the known image formats, which SubdivideVolume --formats lists; --raw reads voxels "
                "without a header");
   }
-  const std::string mistaken = GetMistakenNiftiEnding(path);
-  m_Links = mistaken.empty() ? nullptr : LinkFolder::Get();
   try
   {
-    m_ImageIO->SetFileName(m_Links == nullptr ? path : m_Links->Link(path, mistaken));
+    m_ImageIO->SetFileName(name);
     m_ImageIO->ReadImageInformation();
   }
   catch (const itk::ExceptionObject & error)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PlainHeader.h"
+#include "DataOwners.h"
 #include "HeaderText.h"
-#include "InputFile.h"
 #include "MetaHeader.h"
 #include "Metadata.h"
 #include "NrrdHeader.h"
@@ -45,61 +45,6 @@ GetDataName(const fs::path & output, const bool isCompressed)
   }
   return stem + ending;
 }
-
-/** What an existing header calls the file of its voxels; empty if it does not exist or names none. */
-std::string
-ReadDataName(const fs::path & header)
-{
-  std::error_code error;
-  if (!fs::is_regular_file(header, error))
-  {
-    return {};
-  }
-  const std::string text = InputFile(header.string()).ReadTextAt(0, 1 << 20) + "\n";
-  for (std::size_t start = 0, end = 0; (end = text.find('\n', start)) != std::string::npos; start = end + 1)
-  {
-    const std::string line = text.substr(start, end - start);
-    const auto        separator = line.find_first_of("=:");
-    const std::string key = separator == std::string::npos ? "" : ToLower(Trim(line.substr(0, separator)));
-    if (key == "elementdatafile" || key == "data file" || key == "datafile")
-    {
-      const std::string value = Trim(line.substr(separator + 1));
-      return value.rfind("./", 0) == 0 ? value.substr(2) : value;
-    }
-  }
-  return {};
-}
-
-/** Whether a file may hold the voxels of another image in its folder: whether a header there, other than that one, has
- * its name or names files by a pattern or a list. One that cannot be read might. */
-bool
-IsNamedByAnother(const fs::path & data, const fs::path & header)
-{
-  for (const fs::directory_entry & entry : fs::directory_iterator(data.parent_path()))
-  {
-    const std::string ending = ToLower(entry.path().extension().string());
-    std::error_code   error;
-    if (entry.path() == header || !entry.is_regular_file(error) ||
-        (ending != ".mhd" && ending != ".nhdr" && ending != ".mha" && ending != ".nrrd"))
-    {
-      continue;
-    }
-    try
-    {
-      const std::string name = ReadDataName(entry.path());
-      if (fs::path(name).filename() == data.filename() || name.rfind("LIST", 0) == 0 ||
-          name.find('%') != std::string::npos)
-      {
-        return true;
-      }
-    }
-    catch (const std::runtime_error &)
-    {
-      return true;
-    }
-  }
-  return false;
-}
 } // namespace
 
 bool
@@ -132,9 +77,17 @@ CheckDataFile(const fs::path & output, const std::string & dataName)
 {
   const fs::path  data = output.parent_path() / dataName;
   std::error_code error;
-  if (fs::exists(fs::symlink_status(data, error)) && ReadDataName(output) != dataName)
+  if (!fs::exists(fs::symlink_status(data, error)))
   {
-    Fail(output.string(), "its voxels would replace the file " + data.string() + ", which is another image's");
+    return;
+  }
+  const bool isOwn = ReadDataName(output) == dataName;
+  const auto other = isOwn ? FindOtherOwner(data, output) : std::nullopt;
+  if (!isOwn || other)
+  {
+    Fail(output.string(),
+         "its voxels would replace the file " + data.string() + ", which is another image's" +
+           (other ? ", too, that of " + other->string() : "") + "; choose another name");
   }
 }
 
@@ -144,7 +97,7 @@ FindOldDataFile(const fs::path & output, const bool isCompressed)
   const fs::path  data = output.parent_path() / GetDataName(output, !isCompressed);
   std::error_code error;
   const bool      isOld = ReadDataName(output) == data.filename().string() &&
-                     fs::is_regular_file(fs::symlink_status(data, error)) && !IsNamedByAnother(data, output);
+                     fs::is_regular_file(fs::symlink_status(data, error)) && !FindOtherOwner(data, output);
   return isOld ? std::optional<fs::path>(data) : std::nullopt;
 }
 

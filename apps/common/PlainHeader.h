@@ -27,7 +27,7 @@ ComposePlainHeader(const std::filesystem::path & output,
                    const ImageDescription &      description,
                    const OutputOptions &         options);
 
-/** \throw std::runtime_error if the data file would replace a file that is not that of an earlier output */
+/** \throw std::runtime_error if the data file would replace a file that is not that of an earlier output alone */
 void
 CheckDataFile(const std::filesystem::path & output, const std::string & dataName);
 

@@ -12,6 +12,7 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace fs = std::filesystem;
@@ -87,6 +88,17 @@ KeepPermissions(const fs::path & replaced, const fs::path & file)
     fs::permissions(file, status.permissions(), error);
   }
 }
+
+/** Whether a file belongs to another user in a folder, such as /tmp, where nobody may rename another's files. */
+bool
+IsStuck(const fs::path & file)
+{
+  struct stat own = {};
+  struct stat folder = {};
+  const uid_t user = geteuid();
+  return user != 0 && stat(file.c_str(), &own) == 0 && stat(file.parent_path().c_str(), &folder) == 0 &&
+         (folder.st_mode & S_ISVTX) != 0 && own.st_uid != user && folder.st_uid != user;
+}
 } // namespace
 
 fs::path
@@ -97,6 +109,10 @@ ResolveOutput(fs::path output)
   for (int i = 0; i < longestChain && fs::is_symlink(output, error); ++i)
   {
     output = output.parent_path() / fs::read_symlink(output, error);
+  }
+  if (fs::is_symlink(output, error))
+  {
+    Fail(output, ELOOP);
   }
   const fs::path folder = fs::canonical(fs::absolute(output).parent_path(), error);
   return error ? fs::absolute(output) : folder / output.filename();
@@ -123,12 +139,13 @@ TemporaryFolder::TemporaryFolder(const fs::path & output, const WarningSink & wa
   {
     Fail(output, errno);
   }
-  m_IsInPlace = !this->Make(m_Output.parent_path());
+  const bool isStuck = IsStuck(m_Output);
+  m_IsInPlace = isStuck || !this->Make(m_Output.parent_path());
   if (!m_IsInPlace)
   {
     return;
   }
-  const int reason = errno;
+  const int reason = isStuck ? EPERM : errno;
   if (!fs::exists(m_Output, error) || (reason != EACCES && reason != EPERM && reason != EROFS) ||
       !this->Make(fs::temp_directory_path()))
   {
@@ -252,9 +269,9 @@ TemporaryFolder::Commit()
     {
       CopyOver(m_Folder / name, target / name);
     }
-    else
+    else if (rename((m_Folder / name).c_str(), (target / name).c_str()) != 0)
     {
-      fs::rename(m_Folder / name, target / name);
+      Fail(target / name, errno);
     }
   }
   for (const std::string & name : m_Obsolete)

@@ -9,7 +9,8 @@
 #include <set>
 #include <string>
 
-/** The file that a name leads to, whether it exists or not: a symbolic link is to stay one. */
+/** The file that a name leads to, whether it exists or not: a symbolic link is to stay one.
+ * \throw std::runtime_error if it is a link to itself */
 std::filesystem::path
 ResolveOutput(std::filesystem::path output);
 

@@ -14,6 +14,19 @@ using itk::Subdivision::ElementType;
 
 namespace
 {
+/** ImageJ shows up to seven channels: more of them are a volume that was written without saying what its axes are. */
+bool
+TakeChannelsForSlices(TiffStack & stack)
+{
+  constexpr std::uint64_t mostChannels = 7;
+  if (!stack.IsImageJ || stack.Slices > 1 || stack.Frames > 1 || stack.Channels <= mostChannels)
+  {
+    return false;
+  }
+  std::swap(stack.Slices, stack.Channels);
+  return true;
+}
+
 class TiffReader : public VolumeReader
 {
 public:
@@ -23,6 +36,13 @@ public:
   {
     this->ReadPages();
     TiffStack stack = this->MakeStack();
+    if (!options.Channel && TakeChannelsForSlices(stack))
+    {
+      warn(
+        path + " has " + std::to_string(stack.Slices) +
+        " channels of one slice by its ImageJ description: they are taken for slices, since tifffile writes slices so "
+        "unless it is told the axes; --channel takes one of them");
+    }
     this->ChoosePlanes(stack, options);
     this->Describe(stack, options, warn);
     this->Warn(stack, warn);

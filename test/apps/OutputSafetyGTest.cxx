@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 #include <unistd.h>
 
 using namespace VolumeTest;
@@ -100,6 +102,29 @@ TEST_P(OutputSafety, ALinkStaysOne)
   }
 }
 
+TEST_P(OutputSafety, ALinkToItselfIsNoOutput)
+{
+  fs::create_symlink(m_Name, this->GetPath());
+  EXPECT_NE(GetError([&] { WriteVolume(this->GetPath(), Description, Voxels); }).find("symbolic links"),
+            std::string::npos);
+  EXPECT_TRUE(fs::is_symlink(this->GetPath()));
+}
+
+TEST_P(OutputSafety, ALinkToTheInputIsWrittenThrough)
+{
+  WriteVolume(m_Folder / ("input" + std::string(GetParam())), Description, Voxels);
+  fs::create_directory(m_Folder / "links");
+  const std::string link = m_Folder / ("links/" + m_Name);
+  fs::create_symlink("../input" + std::string(GetParam()), link);
+  const auto reader = Open(m_Folder / ("input" + std::string(GetParam())));
+  auto       other = ReadVoxels(*reader, GetWholeBox(Description.Grid.Size));
+  other.front() = 7;
+  WriteVolume(link, Description, other);
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(ReadAll(m_Folder / ("input" + std::string(GetParam()))), other);
+  EXPECT_EQ(fs::directory_iterator(m_Folder / "links")->path(), link);
+}
+
 TEST_P(OutputSafety, PermissionsOfAReplacedFileStay)
 {
   WriteVolume(this->GetPath(), Description, Voxels);
@@ -147,22 +172,71 @@ TEST_P(OutputSafety, AMissingPartIsNoticed)
   }
 }
 
-// Root may write anywhere, so the folder's permissions say nothing to it.
+namespace
+{
+/** Root may write anywhere: the tests of permissions are another user's while this lives. */
+class UnprivilegedUser
+{
+public:
+  UnprivilegedUser() { this->Become(Nobody); }
+  ~UnprivilegedUser() { this->Become(0); }
+  UnprivilegedUser(const UnprivilegedUser &) = delete;
+  UnprivilegedUser &
+  operator=(const UnprivilegedUser &) = delete;
+
+private:
+  void
+  Become(const uid_t user) const
+  {
+    if (getuid() == 0 && seteuid(user) != 0)
+    {
+      throw std::runtime_error("the user cannot be changed");
+    }
+  }
+
+  static constexpr uid_t Nobody = 65534;
+};
+} // namespace
+
 TEST_P(OutputSafety, AFileInAReadOnlyFolderIsWrittenInPlace)
 {
-  if (geteuid() == 0)
-  {
-    GTEST_SKIP() << "root may write to every folder";
-  }
   WriteVolume(this->GetPath(), Description, Voxels);
+  for (const auto & file : m_Folder.GetFiles())
+  {
+    fs::permissions(m_Folder / file.first, fs::perms(0666));
+  }
   fs::permissions(m_Folder / "", fs::perms(0555));
   auto                     other = Voxels;
   std::vector<std::string> warnings;
   other.front() = 7;
-  WriteVolume(this->GetPath(), Description, other, {}, [&](const std::string & text) { warnings.push_back(text); });
+  {
+    const UnprivilegedUser user;
+    WriteVolume(this->GetPath(), Description, other, {}, [&](const std::string & text) { warnings.push_back(text); });
+  }
   fs::permissions(m_Folder / "", fs::perms(0755));
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("in place"), std::string::npos);
+  EXPECT_EQ(ReadAll(this->GetPath()), other);
+}
+
+TEST_P(OutputSafety, AnothersFileThatMayNotBeRenamedIsWrittenInPlace)
+{
+  if (getuid() != 0)
+  {
+    GTEST_SKIP() << "only root has files of two users";
+  }
+  WriteVolume(this->GetPath(), Description, Voxels);
+  for (const auto & file : m_Folder.GetFiles())
+  {
+    fs::permissions(m_Folder / file.first, fs::perms(0666));
+  }
+  fs::permissions(m_Folder / "", fs::perms(01777));
+  auto other = Voxels;
+  other.front() = 7;
+  {
+    const UnprivilegedUser user;
+    WriteVolume(this->GetPath(), Description, other);
+  }
   EXPECT_EQ(ReadAll(this->GetPath()), other);
 }
 
@@ -184,6 +258,35 @@ TEST_P(DetachedData, OfAnotherImageAreNotReplaced)
   folder.WriteFile(std::string("scan") + GetParam(), "ElementDataFile = other.raw\ndata file: other.raw\n");
   EXPECT_NE(GetError([&] { WriteVolume(path, Description, Voxels); }).find("scan.raw"), std::string::npos);
   EXPECT_EQ(folder.ReadFile("scan.raw"), "another image's voxels");
+}
+
+TEST_P(DetachedData, OfTwoHeadersAreNotReplaced)
+{
+  const TestFolder  folder;
+  const std::string path = folder / (std::string("scan7") + GetParam());
+  WriteVolume(path, Description, Voxels);
+  for (const char * const owner : { "ElementDataFile = scan7.raw\n",
+                                    "ElementDataFile = ./scan7.raw\r\n",
+                                    "data file: scan7.raw\n",
+                                    "ElementDataFile = LIST\nother.raw\nscan7.raw\n",
+                                    "data file: scan%01d.raw 1 9 1\n",
+                                    "data file: scan7%d.raw 1 2 1\n",
+                                    "data file: elsewhere/scan7.raw\n" })
+  {
+    const bool isOwner = std::string(owner).find("scan7%") == std::string::npos &&
+                         std::string(owner).find("elsewhere") == std::string::npos;
+    folder.WriteFile("second.nhdr", owner);
+    auto other = Voxels;
+    other.front() = 7;
+    const auto before = folder.GetFiles();
+    const auto error = GetError([&] { WriteVolume(path, Description, other); });
+    EXPECT_EQ(error.find("second.nhdr") != std::string::npos, isOwner) << owner << error;
+    EXPECT_TRUE(!isOwner || folder.GetFiles() == before) << owner;
+  }
+  // A link to the header is the header.
+  fs::create_symlink(path, folder / "link.mhd");
+  WriteVolume(path, Description, Voxels);
+  EXPECT_EQ(ReadAll(path), Voxels);
 }
 
 TEST_P(DetachedData, ThatAppearMeanwhileAreNotReplaced)

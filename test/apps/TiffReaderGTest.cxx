@@ -242,6 +242,35 @@ TEST_F(TiffReaderTest, LetsTheUserChooseAmongChannelsAndFrames)
   EXPECT_EQ(ReadAll<float>(*reader), chosen);
 }
 
+TEST_F(TiffReaderTest, TakesMoreChannelsThanImageJShowsForSlices)
+{
+  // As tifffile writes an array of three axes for ImageJ.
+  const auto voxels = MakeVoxels<std::uint16_t>(9 * 15);
+  const auto describe = [](const std::string & count) {
+    return "ImageJ=1.11a\nimages=" + count + "\nchannels=" + count + "\nhyperstack=true\nmode=grayscale\n";
+  };
+  const std::string pages = MakeStack(voxels, describe("9")).GetBytes();
+  TiffTestFile      onePage;
+  TiffTestPage      page;
+  page.Width = 5;
+  page.Height = 3;
+  page.Bits = 16;
+  page.Description = describe("9");
+  page.Blocks = { ToBytes(voxels, false) };
+  onePage.AddPage(page);
+  for (const std::string & bytes : { pages, onePage.GetBytes() })
+  {
+    const auto reader = this->Open(bytes);
+    EXPECT_EQ(reader->GetDescription().Grid.Size, (std::vector<std::uint64_t>{ 5, 3, 9 }));
+    EXPECT_EQ(ReadAll<std::uint16_t>(*reader), voxels);
+    EXPECT_TRUE(m_Warnings.Mention("9 channels"));
+    EXPECT_EQ(ReadAll<std::uint16_t>(*this->Open(bytes, Choose(8, 0))),
+              std::vector<std::uint16_t>(voxels.end() - 15, voxels.end()));
+  }
+  const std::vector<std::uint16_t> seven(voxels.begin(), voxels.begin() + 7 * 15);
+  EXPECT_TRUE(Contains(this->GetOpeningError(MakeStack(seven, describe("7")).GetBytes()), "--channel 0 to 6"));
+}
+
 TEST_F(TiffReaderTest, AppliesTheCalibrationOfSignedNumbers)
 {
   const std::vector<std::uint16_t> stored = { 0, 1, 32767, 32768, 32769, 65535, 0, 0, 0, 0, 0, 0, 0, 0, 0 };

@@ -2,6 +2,8 @@
 #ifndef Warnings_h
 #define Warnings_h
 
+#include "ImageDescription.h"
+
 #include <mutex>
 #include <string>
 #include <vector>
@@ -25,5 +27,13 @@ private:
   mutable std::mutex       m_Mutex;
   std::vector<std::string> m_All;
 };
+
+/** Warns if integers of a range may be none that double can hold, in which the programs compute. */
+void
+WarnOfRounding(const std::string &           path,
+               itk::Subdivision::ElementType type,
+               double                        minimum,
+               double                        maximum,
+               const WarningSink &           warn);
 
 #endif

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DataOwners_h
+#define DataOwners_h
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+/** What a header, MetaImage's or NRRD's, calls the file of its voxels, "LIST" or a pattern included; empty if it does
+ * not exist or names none.
+ * \throw std::runtime_error if it cannot be read */
+std::string
+ReadDataName(const std::filesystem::path & header);
+
+/** A header beside a data file, other than that one, that names the data file: by its name, a pattern or in a list. One
+ * that cannot be read might. */
+std::optional<std::filesystem::path>
+FindOtherOwner(const std::filesystem::path & data, const std::filesystem::path & header);
+
+#endif

@@ -1,11 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # Builds the Python package as a wheel, installs it into a virtual environment and runs its tests there:
-#   test_python_package.sh FOLDER
+#   test_python_package.sh FOLDER [OPTION of pytest ...]
 # FOLDER keeps the environment and the build for the next run. The packages come from PyPI; without it, says so.
 set -euo pipefail
 repository=$(cd "$(dirname "$0")/.." && pwd)
 folder=$(mkdir -p "$1" && cd "$1" && pwd)
+shift
 environment=$folder/environment
 python=$environment/bin/python
 
@@ -62,4 +63,4 @@ rm -rf "$folder/wheel"
 # Away from the sources, so that it is the installed package that is tested.
 cd "$folder"
 exec "$python" -m pytest --quiet --config-file "$repository/pyproject.toml" --rootdir "$repository" \
-  -p no:cacheprovider "$repository/python/tests"
+  -p no:cacheprovider "$@" "$repository/python/tests"

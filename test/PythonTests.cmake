@@ -60,6 +60,23 @@ foreach(script experiments_test.py experiments_surfaces_test.py)
   )
 endforeach()
 
+# The wrapping for ITK's Python. Where ITK is wrapped, wrapping/test is run as well.
+if(CASTXML_EXECUTABLE)
+  add_python_test(wrapping_test.py)
+  if(NonOscillatorySubdivision_PYTHON)
+    set_tests_properties(wrapping_test PROPERTIES ENVIRONMENT
+      "CASTXML=${CASTXML_EXECUTABLE};CXX=${CMAKE_CXX_COMPILER};INCLUDE_DIRECTORIES=$<JOIN:${include_directories},:>"
+    )
+  endif()
+else()
+  add_skipped_test(wrapping_test "for want of castxml")
+endif()
+if(NOT ITK_WRAP_PYTHON)
+  add_skipped_test(wrapping_in_itk_python_test
+    "this ITK is not wrapped for Python, see wrapping/README.md; wrapping_test parses what would be wrapped"
+  )
+endif()
+
 # The package for Python makes an environment of its own.
 add_test(
   NAME python_package_test

@@ -24,6 +24,7 @@ LABEL_SCHEMES = ("restored", "bspline", "linear")
 BOUNDARIES = ("nearest", "mirror", "periodic")
 LARGEST_DIMENSION = 4
 LARGEST_LEVELS = 3
+MOST_THREADS = 2**16
 
 
 def checked_volume(volume: object, name: str = "volume") -> NDArray[Any]:
@@ -66,7 +67,8 @@ def checked_axes(axes: int | Sequence[int] | None, dimension: int, channel_axis:
     """The axes to subdivide, in rising order. Default: all but the channels, the last three at most."""
     if axes is None:
         return tuple(axis for axis in range(dimension) if axis != channel_axis)[-3:]
-    given = axes if isinstance(axes, Sequence) else (axes,)
+    given = axes.tolist() if isinstance(axes, np.ndarray) else axes
+    given = given if isinstance(given, Sequence) else (given,)
     result = sorted(checked_axis(axis, dimension, "axis") for axis in given)
     if len(set(result)) < len(result):
         raise ValueError(f"axes {axes} name an axis twice")
@@ -97,7 +99,7 @@ def checked_threads(threads: int | None) -> int:
     number = checked_index(threads, "threads")
     if number < 1:
         raise ValueError(f"threads {threads} is less than 1")
-    return number
+    return min(number, MOST_THREADS)
 
 
 def checked_boundary(boundary: Boundary) -> tuple[str, float]:
@@ -107,14 +109,21 @@ def checked_boundary(boundary: Boundary) -> tuple[str, float]:
             raise ValueError(f"boundary {boundary!r} is none of {', '.join(BOUNDARIES)}, nor a number")
         return boundary, 0.0
     if isinstance(boundary, (Real, np.number)) and not isinstance(boundary, (bool, np.complexfloating)):
-        return "constant", float(boundary)
+        return "constant", _as_float(boundary, "boundary")
     raise TypeError(f"boundary {boundary!r} is none of {', '.join(BOUNDARIES)}, nor a number")
 
 
 def checked_tension(tension: float) -> float:
     if not isinstance(tension, (Real, np.number)) or isinstance(tension, np.complexfloating):
         raise TypeError(f"tension {tension!r} is no number")
-    return float(tension)
+    return _as_float(tension, "tension")
+
+
+def _as_float(value: Any, name: str) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        raise ValueError(f"{name} {value} is too large") from None
 
 
 def make_options(
@@ -142,10 +151,14 @@ def checked_region(region: Region | None, shape: tuple[int, ...]) -> tuple[list[
     """First indices and sizes of a region of an output of that shape."""
     if region is None:
         return [0] * len(shape), list(shape)
-    slices = (region,) if isinstance(region, slice) else tuple(region)
-    if len(slices) > len(shape) or not all(isinstance(part, slice) for part in slices):
+    slices = (region,) if isinstance(region, slice) else region
+    is_sequence = isinstance(slices, Sequence) and len(slices) <= len(shape)
+    if not is_sequence or not all(isinstance(part, slice) for part in slices):
         raise TypeError(f"region {region} is not a tuple of at most {len(shape)} slices")
-    ranges = [range(*part.indices(size)) for part, size in zip(slices, shape)]
+    try:
+        ranges = [range(*part.indices(size)) for part, size in zip(slices, shape)]
+    except TypeError:
+        raise TypeError(f"region {region} has bounds that are no integers") from None
     ranges += [range(size) for size in shape[len(slices) :]]
     if any(part.step != 1 for part in ranges):
         raise ValueError(f"region {region} has a step other than 1")

@@ -77,9 +77,15 @@ class Progress:
     def finished(self) -> set[int]:
         return {int(path.name) for path in self.folder.iterdir() if path.name.isdigit()}
 
+    def output(self) -> str:
+        return str(json.loads((self.folder / "job.json").read_text())["output"])
+
     def end(self) -> None:
+        # The job last: as long as it is there, a run that was ended here goes on.
         for path in self.folder.iterdir():
-            path.unlink()
+            if path.name.isdigit():
+                path.unlink()
+        (self.folder / "job.json").unlink()
         self.folder.rmdir()
 
     @staticmethod

@@ -79,6 +79,10 @@ def subdivide_labels(
 def apply(task: Task, array: Any) -> Any:
     if np.isnan(array.shape).any():
         raise ValueError(f"the array has chunks of unknown size: shape {array.shape}; call compute_chunk_sizes() first")
+    if 0 in array.shape:
+        raise ValueError(f"array has shape {array.shape}: there is nothing to subdivide")
+    if isinstance(array._meta, np.ma.MaskedArray):
+        raise TypeError("array has masked chunks, whose masks would be lost: pass dask.array.ma.filled(array, value)")
     # One voxel is enough to find what is wrong with the options.
     task.apply_to_array(_arguments.checked_volume(np.zeros((1,) * array.ndim, array.dtype), "array"), threads=1)
     task = replace(task, axes=task.checked_axes(array.ndim))
@@ -139,4 +143,4 @@ def subdivide_chunk(
         low = depth if location[axis] > 0 or is_periodic else 0
         high = depth if location[axis] < numbers[axis] - 1 or is_periodic else 0
         region.append(slice(low, (2 * size if axis in axes else size) - high))
-    return task.apply_to_array(chunk, tuple(region), threads=1)
+    return task.apply_to_array(_arguments.checked_volume(chunk, "a chunk"), tuple(region), threads=1)

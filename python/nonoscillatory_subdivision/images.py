@@ -126,8 +126,8 @@ class XarrayAdapter:
             raise ValueError(
                 f"coordinate {coordinate.name!r} ({values.dtype}, shape {values.shape}) cannot be subdivided: drop it"
             )
-        # Relative to the first one, so that times keep their precision.
-        relative = (values - values[0]).astype(np.float64)
+        # Relative to the first one, so that times keep their precision; integers, which may not hold a difference, as floats.
+        relative = ((values.astype(np.float64) if values.dtype.kind in "iu" else values) - values[0]).astype(np.float64)
         position = np.arange(values.size << levels) / 2**levels + first_child(levels)
         cell = np.clip(np.floor(position).astype(int), 0, values.size - 2)
         offset = relative[cell] + (position - cell) * (relative[cell + 1] - relative[cell])

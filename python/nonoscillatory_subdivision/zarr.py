@@ -113,11 +113,18 @@ class _Place:
         self.folder = Path(target)
         self._name = None
         if image.multiscale is not None:
-            finest = image.multiscale["datasets"][0]["path"]
-            self._name = f"{finest}-doubled" if self._is_level else "0"
+            self._finest = image.multiscale["datasets"][0]["path"]
+            self._name = f"{self._finest}-doubled" if self._is_level else "0"
         self.array = self.folder if self._name is None else self.folder / self._name
         # Beside the result, so that it is no part of it.
         self.progress = Progress(self.folder.with_name(self.folder.name + ".unfinished"))
+
+    def remove_notes_of_a_complete_run(self) -> None:
+        """A run may have ended after it described its level and before it removed its notes."""
+        if self._is_level and self.progress.exists():
+            if self.progress.output() == str((self.folder / self._finest).resolve()):
+                self.progress.end()
+                raise ValueError(f"{self.folder} has its doubled level: the run before was complete")
 
     def exists(self) -> bool:
         return (self.array if self._is_level else self.folder).exists()
@@ -208,6 +215,7 @@ class _Run:
         """Finds what is wrong, and creates the output."""
         image = _zarr_image.open_image(source, labels)
         place = _Place(image, target)
+        place.remove_notes_of_a_complete_run()
         wanted = _Wanted(
             scheme=scheme if scheme is not None else "restored" if labels else "nonoscillatory",
             tension=float(tension) if tension is not None else 0.0 if labels else 2.0,

@@ -69,6 +69,40 @@ def test_a_broadcast_axis(volume):
     np.testing.assert_array_equal(subdivide(repeated), subdivide(repeated.copy()))
 
 
+def test_a_file_as_memory(volume, tmp_path):
+    """Both ends are files that are mapped into memory; the volume's is read-only."""
+    np.save(tmp_path / "in.npy", volume)
+    mapped = np.load(tmp_path / "in.npy", mmap_mode="r")
+    out = np.lib.format.open_memmap(tmp_path / "out.npy", "w+", np.uint16, (26, 22, 28))
+    assert subdivide(mapped, out=out) is out
+    out.flush()
+    np.testing.assert_array_equal(np.load(tmp_path / "out.npy"), subdivide(volume))
+
+
+def test_a_subclass_is_an_array(volume):
+    class Labelled(np.ndarray):
+        pass
+
+    result = subdivide(volume.view(Labelled))
+    assert type(result) is np.ndarray
+    np.testing.assert_array_equal(result, subdivide(volume))
+    assert subdivide(np.asmatrix([[1.0, 2.0]])).shape == (2, 4)
+
+
+def test_axes_are_any_sequence(volume):
+    expected = subdivide(volume, axes=(0, 2))
+    for axes in ([0, 2], range(0, 3, 2), np.array([-1, 0]), (np.int8(2), 0)):
+        np.testing.assert_array_equal(subdivide(volume, axes=axes), expected)
+    np.testing.assert_array_equal(subdivide(volume, axes=np.array(1)), subdivide(volume, axes=1))
+
+
+def test_a_channel_axis_counts_from_either_end(volume):
+    expected = np.stack([subdivide(part) for part in volume], axis=1)
+    channels = np.moveaxis(volume, 0, 1)
+    for axis in (1, -2):
+        np.testing.assert_array_equal(subdivide(channels, channel_axis=axis), expected)
+
+
 def test_lists():
     assert subdivide([[1.0, 1.0], [1.0, 1.0]]).tolist() == [[1.0] * 4] * 4
 
@@ -100,7 +134,7 @@ def test_regions_of_other_schemes_and_axes(volume):
     np.testing.assert_array_equal(subdivide(line, region=slice(3, 9)), subdivide(line)[3:9])
 
 
-@pytest.mark.parametrize("threads", [1, 2, 5, np.int64(3)])
+@pytest.mark.parametrize("threads", [1, 2, 5, np.int64(3), 10**12])
 def test_threads_do_not_matter(threads):
     volume = np.random.default_rng(1).normal(size=(60, 70, 80)).astype(np.float32)
     np.testing.assert_array_equal(subdivide(volume, threads=threads), subdivide(volume))
@@ -125,6 +159,16 @@ def test_integers_round_and_saturate():
     np.testing.assert_array_equal(subdivide(step, scheme="linear", dtype=np.int8), np.rint(real).clip(-128, 127))
     np.testing.assert_array_equal(subdivide(step * 2.5, scheme="linear", dtype=np.uint8).max(), 255)
     assert subdivide(np.full(4, np.nan), dtype=np.int16).tolist() == [0] * 8
+
+
+@pytest.mark.parametrize("view", [np.s_[:20], np.s_[20:], np.s_[10:30], np.s_[19::-1], np.s_[::2]], ids=str)
+@pytest.mark.parametrize("levels", [1, 2])
+def test_out_overlaps_the_volume(view, levels):
+    memory = np.arange(20.0 * 2**levels) ** 1.5
+    part = memory[view][:20]
+    expected = subdivide(part.copy(), levels=levels)
+    assert subdivide(part, out=memory, levels=levels) is memory
+    np.testing.assert_array_equal(memory, expected)
 
 
 def test_out_over_the_volume():

@@ -80,6 +80,22 @@ def test_errors_come_before_anything_is_computed():
         dask_subdivision.subdivide(array.astype(complex))
     with pytest.raises(ValueError, match="unknown size"):
         dask_subdivision.subdivide(array[array[:, 0] > 0])
+    with pytest.raises(ValueError, match=r"\(0, 8\)"):
+        dask_subdivision.subdivide(array[:0])
+    with pytest.raises(TypeError, match="masked"):
+        dask_subdivision.subdivide(dask_array.ma.masked_greater(array, 0))
+
+
+def test_chunks_that_turn_out_to_be_masked():
+    """The array does not know it, as its chunks are made by a function."""
+
+    def mask(chunk):
+        return np.ma.masked_greater(chunk, 0) if chunk.size else chunk
+
+    array = dask_array.ones((8, 8), chunks=8).map_blocks(mask, meta=np.empty((0, 0)))
+    lazy = dask_subdivision.subdivide(array)
+    with pytest.raises(TypeError, match="masked"):
+        lazy.compute(scheduler="synchronous")
 
 
 def test_two_worker_processes(client):

@@ -109,6 +109,35 @@ def test_xarray(volume):
     assert result["patient"] == "phantom"
 
 
+@pytest.mark.parametrize("dtype", [np.uint8, np.int8, np.uint64, np.float32])
+def test_xarray_coordinates_may_fall(dtype):
+    xarray = pytest.importorskip("xarray")
+    places = np.array([120, 60, 0] if np.dtype(dtype).kind != "i" else [120, 0, -120], dtype)
+    result = subdivide(xarray.DataArray(np.zeros(3), {"x": places}, ("x",)))
+    step = (float(places[1]) - float(places[0])) / 2
+    np.testing.assert_allclose(result["x"], 120 - step / 2 + step * np.arange(6))
+
+
+def test_xarray_masked_data_is_refused():
+    xarray = pytest.importorskip("xarray")
+    with pytest.raises(TypeError, match="masked"):
+        subdivide(xarray.DataArray(np.ma.masked_array([1.0, 2.0], [True, False])))
+
+
+@pytest.mark.parametrize("dimension", [2, 4])
+def test_simpleitk_of_other_dimensions(dimension):
+    sitk = pytest.importorskip("SimpleITK")
+    volume = np.random.default_rng(2).integers(0, 255, (3, 4, 5, 6)[4 - dimension :], dtype=np.uint8)
+    image = sitk.GetImageFromArray(volume, isVector=False)
+    image.SetDirection(np.fliplr(np.eye(dimension)).ravel())
+    result = subdivide(image)
+    np.testing.assert_array_equal(sitk.GetArrayViewFromImage(result), subdivide(volume))
+    # The direction turns the axes around, so the origin moves along the opposite ones: not along time, the last of four.
+    moved = [-0.25] * dimension if dimension == 2 else [0.0, -0.25, -0.25, -0.25]
+    assert result.GetOrigin() == tuple(moved)
+    assert result.GetDirection() == image.GetDirection()
+
+
 def test_xarray_coordinates_without_numbers(volume):
     xarray = pytest.importorskip("xarray")
     image = xarray.DataArray(volume[0], {"y": list("abcdef")}, ("y", "x"))

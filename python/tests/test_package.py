@@ -47,6 +47,19 @@ def test_one_version():
     assert importlib.metadata.version("nonoscillatory-subdivision") == project_line[1]
     assert f"version: {project_line[1]}\n" in (REPOSITORY / "CITATION.cff").read_text()
     assert f"## {project_line[1]}" in (REPOSITORY / "CHANGELOG.md").read_text()
+    minor = project_line[1].rpartition(".")[0]
+    assert f"What was tried with version {minor}:" in (REPOSITORY / "README.md").read_text()
+
+
+@pytest.mark.parametrize("project", [".", "wrapping"])
+def test_wheels_take_the_version_from_the_project_line(project):
+    """As scikit-build-core reads it: the first match of the expression."""
+    tomllib = pytest.importorskip("tomllib")
+    settings = tomllib.loads((REPOSITORY / project / "pyproject.toml").read_text())
+    source = settings["tool"]["scikit-build"]["metadata"]["version"]
+    lines = (REPOSITORY / project / source["input"]).read_text()
+    match = re.search(source["regex"], lines, re.MULTILINE)
+    assert match is not None and match["value"] == nonoscillatory_subdivision.__version__
 
 
 def test_import_is_light():

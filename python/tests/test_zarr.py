@@ -107,6 +107,35 @@ def test_shards_and_codecs_are_kept(tmp_path, client, volume, small_blocks):
     np.testing.assert_array_equal(result[...], subdivide(volume))
 
 
+ODD_STORES = [
+    {"zarr_format": 3, "chunks": (5, 7, 6), "shards": (10, 14, 12)},
+    {"zarr_format": 3, "chunks": (5, 25, 32), "shards": (50, 75, 96)},
+    {"zarr_format": 3, "chunks": (64, 64, 64)},
+    {"zarr_format": 3, "chunks": (1, 50, 60), "serializer": zarr.codecs.BytesCodec(endian="big"), "fill_value": 9},
+    {"zarr_format": 2, "chunks": (64, 9, 1), "order": "F", "compressors": None},
+    {"zarr_format": 2, "chunks": (13, 13, 13), "fill_value": None},
+]
+
+
+@pytest.mark.parametrize("store", ODD_STORES, ids=str)
+@pytest.mark.parametrize("chunks", [None, (7, 100, 11), (200, 200, 200)])
+def test_odd_chunks_and_shards(tmp_path, client, volume, store, chunks):
+    source, target = str(tmp_path / "in.zarr"), str(tmp_path / "out.zarr")
+    write_plain(source, volume, **store)
+    zarr_subdivision.subdivide(source, target, client, chunks=chunks, boundary="periodic")
+    result = zarr.open_array(target, mode="r")
+    assert result.chunks == (chunks or store["chunks"])
+    np.testing.assert_array_equal(result[...], subdivide(volume, boundary="periodic"))
+    np.testing.assert_array_equal(read_by_tensorstore(target, store["zarr_format"]), result[...])
+
+
+def test_a_big_endian_array_of_version_2(tmp_path, client, volume):
+    source, target = str(tmp_path / "in.zarr"), str(tmp_path / "out.zarr")
+    write_plain(source, volume.astype(">u2"), 2)
+    zarr_subdivision.subdivide(source, target, client)
+    np.testing.assert_array_equal(zarr.open_array(target)[...], subdivide(volume))
+
+
 def test_masks_become_real(tmp_path, client, volume):
     source, target = str(tmp_path / "in.zarr"), str(tmp_path / "out.zarr")
     write_plain(source, volume > 2000, 2)
@@ -261,6 +290,57 @@ def test_finished_blocks_are_not_computed_again(tmp_path, client, volume, small_
     assert first_reports[0] >= 30
     assert first_reports[-1] == 5 * 7 * 8
     np.testing.assert_array_equal(zarr.open_array(target)[...], subdivide(volume))
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        {"scheme": "linear"},
+        {"tension": 3.0},
+        {"boundary": "mirror"},
+        {"axes": ["0"]},
+        {"levels": 2},
+        {"chunks": (8, 8, 8)},
+        {"labels": True},
+    ],
+    ids=str,
+)
+def test_a_run_is_not_taken_up_with_other_options(tmp_path, client, volume, small_blocks, other):
+    source, target = str(tmp_path / "in.zarr"), str(tmp_path / "out.zarr")
+    write_plain(source, volume[:16])
+
+    def stop(done, total):
+        if done == 5:
+            raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        zarr_subdivision.subdivide(source, target, client, report=stop)
+    with pytest.raises(ValueError, match="other options"):
+        zarr_subdivision.subdivide(source, target, client, **other)
+    zarr_subdivision.subdivide(source, target, client)
+    np.testing.assert_array_equal(zarr.open_array(target)[...], subdivide(volume[:16]))
+
+
+@pytest.mark.parametrize("target_name", ["out.zarr", None])
+def test_a_run_that_ended_among_its_notes(tmp_path, client, volume, small_blocks, monkeypatch, target_name):
+    """All is computed and described, but the notes of the run were not removed."""
+    source = str(tmp_path / "in.zarr")
+    target = target_name and str(tmp_path / target_name)
+    write_ome(source, volume, "0.5")
+    with monkeypatch.context() as patch:
+        patch.setattr("nonoscillatory_subdivision._zarr_blocks.Progress.end", lambda self: None)
+        zarr_subdivision.subdivide(source, target, client)
+    notes = tmp_path / f"{target_name or 'in.zarr'}.unfinished"
+    assert notes.exists()
+    if target is None:
+        with pytest.raises(ValueError, match="was complete"):
+            zarr_subdivision.subdivide(source, target, client)
+        assert len(multiscale(source)["datasets"]) == 3
+    else:
+        zarr_subdivision.subdivide(source, target, client)
+    assert not notes.exists()
+    finest = zarr.open_group(target or source)[multiscale(target or source)["datasets"][0]["path"]]
+    np.testing.assert_array_equal(finest[...], subdivide(volume))
 
 
 def test_the_command_with_a_scheduler(tmp_path, client, volume):

@@ -17,9 +17,11 @@ ReadEnvironment(const char * const name, const unsigned int otherwise)
 }
 
 /** Calls \c check with the seeds of so many cases, until one fails, whose seed is told then. For other cases set
- * SUBDIVISION_SEED, the first seed, and SUBDIVISION_CASES, the number of cases of each test. */
+ * SUBDIVISION_SEED, the first seed, and SUBDIVISION_CASES, the number of cases of each test. Returns how many there
+ * were.
+ */
 template <typename TCheck>
-void
+unsigned int
 ForEachGeneratedCase(const unsigned int cases, const TCheck & check)
 {
   const unsigned int first = ReadEnvironment("SUBDIVISION_SEED", 0);
@@ -32,6 +34,7 @@ ForEachGeneratedCase(const unsigned int cases, const TCheck & check)
     check(seed);
   }
   std::cout << "[  cases   ] " << done << " from seed " << first << std::endl;
+  return done;
 }
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef itkSubdivisionImageFilterBase_hxx
 #define itkSubdivisionImageFilterBase_hxx
 
+#include "NonOscillatorySubdivision/DefaultFloatingPoint.h"
 #include "NonOscillatorySubdivision/Geometry.h"
 #include "NonOscillatorySubdivision/Scheme.h"
 #include "NonOscillatorySubdivision/Target.h"
@@ -194,6 +195,7 @@ template <typename TInputImage, typename TOutputImage>
 void
 SubdivisionImageFilterBase<TInputImage, TOutputImage>::GenerateOutputInformation()
 {
+  const Subdivision::DefaultFloatingPoint environment;
   Superclass::GenerateOutputInformation();
 
   const InputImageType * const       input = this->GetInput();

@@ -4,6 +4,7 @@
 
 #include "NonOscillatorySubdivision/ArrayView.h"
 #include "NonOscillatorySubdivision/Boundary.h"
+#include "NonOscillatorySubdivision/DefaultFloatingPoint.h"
 #include "itkMirrorBoundaryCondition.h"
 
 #include "itkConstantBoundaryCondition.h"
@@ -180,6 +181,9 @@ template <typename TImage>
 std::vector<double>
 GetConstants(const ConstantBoundaryCondition<TImage, TImage> & condition, const TImage * const image)
 {
+  // Large integers are rounded to double, and not as the caller may have chosen.
+  const Subdivision::DefaultFloatingPoint environment;
+
   const auto          components = static_cast<std::int64_t>(CountComponents(image));
   const auto          pixel = condition.GetConstant();
   std::vector<double> constants;

@@ -100,6 +100,23 @@ public:
     });
   }
 
+  /** An element as it is; \c T must be the array's type. */
+  template <typename T>
+  T
+  GetElement(const Index & index) const
+  {
+    T element;
+    std::memcpy(&element, m_Memory.data() + Position(index), sizeof(element));
+    return element;
+  }
+
+  template <typename T>
+  void
+  SetElement(const Index & index, const T element)
+  {
+    std::memcpy(m_Memory.data() + Position(index), &element, sizeof(element));
+  }
+
   /** The bytes of some elements side by side. */
   std::vector<unsigned char>
   GetBytes(const Index & index, const std::size_t elements = 1) const

@@ -44,7 +44,8 @@ public:
   virtual std::size_t
   GetNumberOfTiles() const = 0;
 
-  /** From any thread, each tile once, in any order. May throw; then the tile is incomplete. */
+  /** From any thread, each tile once, in any order; under DefaultFloatingPoint. May throw; then the tile is
+   * incomplete. */
   virtual void
   ComputeTile(std::size_t number, TileMonitor & monitor) = 0;
 };

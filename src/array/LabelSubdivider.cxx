@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NonOscillatorySubdivision/LabelSubdivider.h"
 
+#include "NonOscillatorySubdivision/DefaultFloatingPoint.h"
 #include "NonOscillatorySubdivision/Geometry.h"
 #include "array/Arguments.h"
 #include "array/LabelBlock.h"
@@ -313,6 +314,7 @@ LabelSubdivider::ComputeTile(const std::size_t number, TileMonitor & monitor)
   {
     return;
   }
+  const DefaultFloatingPoint environment;
   monitor.Completed(WithElementType(m_Implementation->Input.Type, [&](auto tag) -> std::size_t {
     using Type = typename decltype(tag)::Type;
     if constexpr (std::is_integral<Type>::value)

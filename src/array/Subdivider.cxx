@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "NonOscillatorySubdivision/Subdivider.h"
 
+#include "NonOscillatorySubdivision/DefaultFloatingPoint.h"
 #include "NonOscillatorySubdivision/Geometry.h"
 #include "array/Arguments.h"
 #include "array/CheckedArithmetic.h"
@@ -241,6 +242,7 @@ Subdivider::ComputeTile(const std::size_t number, TileMonitor & monitor)
 {
   if (!monitor.IsStopped())
   {
+    const DefaultFloatingPoint environment;
     m_Implementation->ComputeTile(m_Implementation->Plan.GetTile(m_Implementation->Tiles, number), monitor);
   }
 }

@@ -104,8 +104,9 @@ MakeSettings(const Scheme &   scheme,
   {
     throw std::invalid_argument("a kernel's largest tile has more than 2^40 voxels in a plane");
   }
-  // An infinite product with a threshold of 0 would not be 0.
-  const double finite = std::min<double>(tension, std::numeric_limits<TReal>::max());
+  // An infinite product with a threshold of 0 would not be 0. The restored scheme multiplies by 4 times the tension.
+  const int    factor = scheme.Limited == Correction::TowardsLinear ? 4 : 1;
+  const double finite = std::min<double>(tension, std::numeric_limits<TReal>::max() / factor);
   return { scheme, finite, axes, largest.X, height, &target };
 }
 

@@ -8,8 +8,8 @@ from scipy.sparse.csgraph import connected_components
 from skimage.measure import marching_cubes
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-from vtkmodules.vtkFiltersCore import vtkWindowedSincPolyDataFilter
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkSurfaceNets3D, vtkWindowedSincPolyDataFilter
 from vtkmodules.vtkFiltersModeling import vtkHausdorffDistancePointSetFilter
 
 
@@ -95,6 +95,23 @@ def smoothed(mesh, pass_band, iterations=20):
     smoother.Update()
     points = vtk_to_numpy(smoother.GetOutput().GetPoints().GetData()).astype(float)
     return Mesh(points[:, ::-1], mesh.triangles)
+
+
+def surface_nets(labels):
+    """VTK's surface nets around label 1, smoothed as they are by default."""
+    image = vtkImageData()
+    image.SetDimensions(*labels.shape[::-1])
+    image.GetPointData().SetScalars(numpy_to_vtk(np.ascontiguousarray(labels, dtype=np.uint8).ravel(), deep=True))
+    nets = vtkSurfaceNets3D()
+    nets.SetInputData(image)
+    nets.SetValue(0, 1)
+    nets.SetOutputMeshTypeToTriangles()
+    nets.Update()
+    surface = nets.GetOutput()
+    points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+    triangles = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3).astype(np.int64)
+    # From (x, y, z) to [z, y, x]; reversing the corners keeps the outside outside.
+    return Mesh(points[:, ::-1], triangles[:, ::-1])
 
 
 def weighted_quantile(values, weights, fraction):

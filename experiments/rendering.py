@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Coloured meshes side by side in one picture: VTK draws them without a screen, Matplotlib lays them out."""
-import atexit
+"""Coloured meshes side by side in one picture: VTK draws them without a screen (through EGL), Matplotlib lays them out."""
 import os
-import shutil
-import subprocess
 from dataclasses import dataclass
 
 import matplotlib as mpl
 import numpy as np
+
+# VTK would look for a screen first, and warn where there is none.
+os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
+
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (registers VTK's renderer)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkRenderingCore import (
@@ -55,25 +56,6 @@ class Scale:
         return mpl.cm.ScalarMappable(mpl.colors.Normalize(self.lowest, self.highest), mpl.colormaps[self.colours])
 
 
-def ensure_display():
-    """Debian's VTK draws through X11 and ends the process where there is none: start a virtual one."""
-    if os.environ.get("DISPLAY"):
-        return
-    if not shutil.which("Xvfb"):
-        raise common.ProgramError("no X11 display to draw on: set DISPLAY, or install Xvfb")
-    server = subprocess.Popen(
-        ["Xvfb", "-displayfd", "1", "-noreset", "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-    )
-    atexit.register(server.wait)
-    atexit.register(server.terminate)
-    number = server.stdout.readline().decode().strip()
-    if not number:
-        raise common.ProgramError("Xvfb did not start")
-    os.environ["DISPLAY"] = f":{number}"
-
-
 def _actor(panel, scale):
     """The mesh in its colours, lit flatly, so that every facet shows."""
     data = panel.mesh.polydata()
@@ -103,7 +85,6 @@ def _aim(renderer, view):
 
 def render(panel, view, scale):
     """The panel's mesh as an RGB image."""
-    ensure_display()
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     renderer.AddActor(_actor(panel, scale))

@@ -5,6 +5,7 @@ An array's axes are [z, y, x], and a spacing is given in the same order, so `spa
 Formats: MetaImage (MHA, MHD) and NRRD (attached and detached header), raw or zlib, scalar, three axes.
 """
 import gzip
+import os
 import pathlib
 import tarfile
 import zlib
@@ -13,7 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 
 CRANIUM = pathlib.Path("/usr/share/doc/invesalius-examples/examples/Cranium.inv3")
-TRABECULAR = pathlib.Path(__file__).resolve().parents[2] / "shared/data/trabecular_uct_LHDL.mha"
+TRABECULAR = pathlib.Path(
+    os.environ.get("TRABECULAR_VOLUME")
+    or pathlib.Path(__file__).resolve().parents[2] / "shared/data/trabecular_uct_LHDL.mha"
+)
 
 META_TYPES = {
     "MET_CHAR": "i1", "MET_UCHAR": "u1", "MET_SHORT": "i2", "MET_USHORT": "u2",

@@ -30,7 +30,7 @@ namespace itk
  * - BSpline: the B-spline alone, a convex combination of its stencil.
  * - Restored: the B-spline of sharpened values, clamped to the range of the pixels next to the child's own, plus what
  *   the linear scheme differs by, as far as Tension allows. With a tension of 0 it never leaves that range. Reads
- *   p-5 ... p+5.
+ *   p-4 ... p+5.
  *
  * Averages are kept where the data is smooth, not exactly: the mean of the two children of a pixel along one axis is
  * f + 5/1024 times the sixth difference of f with the linear scheme, and moves at edges with the non-oscillatory one.
@@ -43,7 +43,8 @@ namespace itk
  * pixels are copied exactly.
  *
  * Where the input has a pixel that is not finite, exactly the children whose six-point stencil reads it are not finite;
- * those that only depend on it through a limit are finite.
+ * those that only depend on it through a limit are finite. The restored scheme's stencil is that of the sharpened
+ * values: ten points along one axis.
  *
  * The result depends on the input and the options alone, never on the number of threads, the region asked for or how
  * the image was streamed. The filter streams: it requests the exact stencil of what it is asked for, as the boundary

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Builds the Python package as a wheel, installs it into a virtual environment and runs its tests there:
 #   test_python_package.sh FOLDER [OPTION of pytest ...]
-# FOLDER keeps the environment and the build for the next run. The packages come from PyPI; without it, says so.
+# FOLDER keeps the environment and the build for the next run. The packages come from PyPI; without it, ends with
+# status 77 and says so.
 set -euo pipefail
 repository=$(cd "$(dirname "$0")/.." && pwd)
 folder=$(mkdir -p "$1" && cd "$1" && pwd)
@@ -13,7 +14,7 @@ python=$environment/bin/python
 # What pyproject.toml asks for to build and to test, but the package itself.
 list_requirements()
 {
-  "$python" - "$repository/pyproject.toml" << 'END'
+  /usr/bin/python3 - "$repository/pyproject.toml" << 'END'
 import sys, tomllib
 with open(sys.argv[1], "rb") as file:
     settings = tomllib.load(file)
@@ -24,32 +25,12 @@ print("\n".join(name for name in names if not name.startswith(project["name"])))
 END
 }
 
-install_requirements()
-{
-  local log=$folder/pip.log
-  if ! "$python" -m pip install --quiet --disable-pip-version-check --requirement "$folder/requirements.txt" \
-    > "$log" 2>&1; then
-    if grep --quiet -e 'from versions: none' -e 'Connection' -e 'Max retries' "$log"; then
-      echo "skipped, for want of: a connection to PyPI"
-      exit 0
-    fi
-    cat "$log" >&2
-    exit 1
-  fi
-}
-
-if ! /usr/bin/python3 -c 'import ensurepip, venv, tomllib' 2> /dev/null; then
-  echo "skipped, for want of: python3-venv, with Python 3.11 or later"
-  exit 0
-fi
-if [[ ! -x $python ]]; then
-  /usr/bin/python3 -m venv "$environment"
+if ! /usr/bin/python3 -c 'import tomllib' 2> /dev/null; then
+  echo "skipped, for want of: Python 3.11 or later"
+  exit 77
 fi
 list_requirements > "$folder/requirements.txt"
-if ! cmp --silent "$folder/requirements.txt" "$folder/installed.txt"; then
-  install_requirements
-  cp "$folder/requirements.txt" "$folder/installed.txt"
-fi
+"$repository/scripts/make_environment.sh" "$environment" "$folder/requirements.txt"
 
 export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
 if command -v ccache > /dev/null; then

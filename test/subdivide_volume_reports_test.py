@@ -282,6 +282,16 @@ class Labels(Reports):
         self.assertEqual(self.run_and_report("in.nrrd")["warnings"], [])
         self.check_warning("in.seg.nrrd")
 
+    def test_the_name_of_a_segmentation_is_enough_and_so_is_any_segment(self):
+        values = [v % 3 for v in range(120)]
+        for name in ("in.seg.nrrd", "In.Seg.NRRD"):
+            write_nrrd(self.path(name), [6, 5, 4], "B", values)
+            self.check_warning(name)
+        write_nrrd(self.path("other.nrrd"), [6, 5, 4], "B", values, more=["Segment3_ID:=b", "Segment3_Name:=lung"])
+        self.check_warning("other.nrrd")
+        write_meta(self.path("in.mha"), [6, 5, 4], "B", values, more=["Segment0_LabelValue = 1"])
+        self.check_warning("in.mha")
+
     def check_warning(self, name):
         result = self.run_program(self.path(name), self.path("out.mha"))
         self.assertEqual(result.returncode, 0)

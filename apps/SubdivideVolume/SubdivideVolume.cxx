@@ -7,6 +7,7 @@
 #include "FormatTable.h"
 #include "LevelChain.h"
 #include "LibraryMessages.h"
+#include "Metadata.h"
 #include "OneLineMessage.h"
 #include "Options.h"
 #include "PieceAgreement.h"
@@ -76,7 +77,7 @@ Open(const Options & options, Warnings & warnings)
 {
   auto reader =
     OpenVolume(options.Input, options.Reading, [&warnings](const std::string & text) { warnings.Add(text); });
-  if (reader->GetDescription().IsLabelMap && !options.Labels)
+  if (!options.Labels && IsLabelMap(options.Input, reader->GetDescription()))
   {
     warnings.Add("the file says that its voxels are labels; between two labels others appear that mean something else, "
                  "unless --labels is given");

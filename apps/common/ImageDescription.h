@@ -38,9 +38,8 @@ struct ImageDescription
   itk::Subdivision::ElementType      Component{};
   unsigned int                       NumberOfComponents = 1; // of a voxel, side by side
   VoxelKind                          Kind = VoxelKind::Scalar;
-  bool                               IsLabelMap = false; // the file says so
-  std::string                        Format;             // for people: "NRRD", "TIFF folder", ...
-  std::map<std::string, std::string> Metadata;           // what else the file says, key by key, in its format's names
+  std::string                        Format;   // for people: "NRRD", "TIFF folder", ...
+  std::map<std::string, std::string> Metadata; // what else the file says, key by key, in its format's names
 
   std::uint64_t
   GetNumberOfVoxels() const

@@ -82,9 +82,6 @@ Describe(const std::string & path, const itk::ImageIOBase & imageIO)
   description.Kind = GetKind(imageIO);
   description.Format = GetFormatName(imageIO);
   description.Metadata = GetMetadata(imageIO.GetMetaDataDictionary());
-  const auto intent = description.Metadata.find("intent_code");
-  description.IsLabelMap =
-    description.Format == "NIfTI" && intent != description.Metadata.end() && intent->second == "1002";
   CheckDescription(path, description);
   return description;
 }

@@ -39,6 +39,13 @@ IsOfSegments(const std::string & key)
   return std::regex_match(key, segments);
 }
 
+bool
+IsNamedSegmentation(const std::string & path)
+{
+  static const std::regex name(".*\\.seg\\.(nrrd|nhdr)", std::regex::icase);
+  return std::regex_match(path, name);
+}
+
 std::string
 Find(const ImageDescription & description, const std::string & key)
 {
@@ -164,6 +171,14 @@ GetUnit(const ImageDescription & description)
   const auto        first = nrrd.find('"');
   const auto        last = first == std::string::npos ? first : nrrd.find('"', first + 1);
   return last == std::string::npos ? "" : SpellUnit(nrrd.substr(first + 1, last - first - 1));
+}
+
+bool
+IsLabelMap(const std::string & path, const ImageDescription & description)
+{
+  const auto & keys = description.Metadata;
+  return (description.Format == "NIfTI" && Find(description, "intent_code") == "1002") || IsNamedSegmentation(path) ||
+         std::any_of(keys.begin(), keys.end(), [](const auto & entry) { return IsOfSegments(entry.first); });
 }
 
 OutputMetadata

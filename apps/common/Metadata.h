@@ -28,6 +28,11 @@ struct OutputMetadata
 OutputMetadata
 SelectMetadata(const ImageDescription & description, MetadataStyle style, bool keepAll);
 
+/** Whether an image says that its voxels are labels: by the intent of NIfTI, by the name of 3D Slicer's segmentations
+ * (.seg.nrrd), or by a segment that the header tells of. */
+bool
+IsLabelMap(const std::string & path, const ImageDescription & description);
+
 /** The unit of an image's spacing and origin: mm, um, cm, m or another; empty if nothing says so. */
 std::string
 GetUnit(const ImageDescription & description);

@@ -103,7 +103,6 @@ CopyMetadata(const NrrdFields & fields, ImageDescription & description)
       description.Metadata[std::string("NRRD_") + name] = *value;
     }
   }
-  description.IsLabelMap = fields.KeyValues.count("Segment0_LabelValue") != 0;
 }
 
 bool

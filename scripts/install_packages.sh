@@ -9,7 +9,7 @@ repository=$(cd "$(dirname "$0")/.." && pwd)
 # libgdcm-tools only keeps CMake quiet: Debian's GDCM names these programs among its targets, and CMake complains of each.
 declare -A packages=(
   [build]="cmake g++ help2man libcli11-dev libgdcm-dev libgdcm-tools libhwy-dev libinsighttoolkit5-dev libisal-dev
-    libpugixml-dev libtiff-dev ninja-build nlohmann-json3-dev zlib1g-dev"
+    libjpeg-dev libpugixml-dev libtiff-dev ninja-build nlohmann-json3-dev zlib1g-dev"
   [sample]="invesalius-examples python3-matplotlib python3-numpy"
   [test]="castxml libgtest-dev python3 python3-dev python3-venv"
   [benchmark]="libbenchmark-dev python3"

@@ -2,6 +2,7 @@
 #include "FileIntegrity.h"
 #include "MetaImageIntegrity.h"
 #include "NiftiFiles.h"
+#include "NiftiHeader.h"
 
 #include "itkStreamingImageIOBase.h"
 #include "itk_zlib.h"
@@ -92,67 +93,27 @@ CheckEnd(const std::string & path, Bytes & bytes)
   }
 }
 
-/** Numbers of a NIfTI-1 header in either byte order. */
-class NiftiHeader
+void
+CheckForFaults(const std::string & path, const NiftiHeader & header)
 {
-public:
-  static constexpr std::size_t Size = 348;
-
-  explicit NiftiHeader(Bytes & bytes)
+  const std::string fault = header.FindFault();
+  if (!fault.empty())
   {
-    m_IsComplete = bytes.Read(m_Header.data(), Size) == Size;
-    m_IsSwapped = this->GetShort(40) < 1 || this->GetShort(40) > 7;
+    throw std::runtime_error("cannot read " + path + ": " + fault);
   }
-
-  /** Whether it is a header of version 1 at all, and its voxels follow in the same file. */
-  bool
-  IsSingleFile() const
-  {
-    return m_IsComplete && std::memcmp(m_Header.data() + 344, "n+1", 3) == 0;
-  }
-
-  /** Whether it is a header of version 1 or of Analyze at all: both start with their size. */
-  bool
-  IsOfPair() const
-  {
-    return m_IsComplete && this->GetShort(m_IsSwapped ? 2 : 0) == static_cast<int>(Size);
-  }
-
-  std::uint64_t
-  GetDataBytes() const
-  {
-    std::uint64_t bits = this->GetShort(72);
-    for (int axis = 1; axis <= this->GetShort(40); ++axis)
-    {
-      bits *= this->GetShort(40 + 2 * axis);
-    }
-    return bits / 8;
-  }
-
-private:
-  int
-  GetShort(std::size_t offset) const
-  {
-    const auto first = static_cast<unsigned char>(m_Header[offset + (m_IsSwapped ? 1 : 0)]);
-    const auto second = static_cast<unsigned char>(m_Header[offset + (m_IsSwapped ? 0 : 1)]);
-    return first + 256 * second;
-  }
-
-  std::array<char, Size> m_Header{};
-  bool                   m_IsComplete = false;
-  bool                   m_IsSwapped = false;
-};
+}
 
 void
 CheckNiftiPair(const std::string & path)
 {
   const NiftiPair   files = FindNiftiPair(path);
-  Bytes             start(files.Header);
-  const NiftiHeader header(start);
+  const NiftiHeader header(files.Header);
   if (header.IsOfPair())
   {
-    Bytes bytes(files.Voxels);
-    CheckBytes(files.Voxels, bytes.Skip(header.GetDataBytes()), header.GetDataBytes());
+    CheckForFaults(path, header);
+    const std::uint64_t expected = header.GetDataOffset() + header.GetDataBytes();
+    Bytes               bytes(files.Voxels);
+    CheckBytes(files.Voxels, bytes.Skip(expected), expected);
     CheckEnd(files.Voxels, bytes);
   }
 }
@@ -165,12 +126,13 @@ CheckNifti(const std::string & path)
     CheckNiftiPair(path);
     return;
   }
-  Bytes             bytes(path);
-  const NiftiHeader header(bytes);
+  const NiftiHeader header(path);
   if (header.IsSingleFile())
   {
-    constexpr std::uint64_t extension = 4; // the least that lies between the header and the voxels
-    CheckBytes(path, bytes.Skip(extension + header.GetDataBytes()), extension + header.GetDataBytes());
+    CheckForFaults(path, header);
+    const std::uint64_t expected = header.GetDataOffset() + header.GetDataBytes();
+    Bytes               bytes(path);
+    CheckBytes(path, bytes.Skip(expected), expected);
     CheckEnd(path, bytes);
   }
 }
@@ -189,19 +151,6 @@ CheckGipl(const std::string & path, const itk::ImageIOBase & imageIO)
 FailOfEnd(const std::string & path)
 {
   throw std::runtime_error("cannot read " + path + ": it is truncated");
-}
-
-/** The end marker must come after the last start of a scan; no scan's data looks like a marker. */
-void
-CheckJpeg(const std::string & path)
-{
-  std::ifstream     file(path, std::ios::binary);
-  const std::string bytes{ std::istreambuf_iterator<char>(file), {} };
-  const auto        scan = bytes.rfind("\xff\xda");
-  if (scan == std::string::npos || bytes.find("\xff\xd9", scan) == std::string::npos)
-  {
-    FailOfEnd(path);
-  }
 }
 
 /** The header tells the size of the file. */
@@ -279,10 +228,6 @@ CheckFileIsWhole(const std::string & path, itk::ImageIOBase & imageIO)
   {
     CheckGipl(path, imageIO);
   }
-  else if (format == "JPEGImageIO")
-  {
-    CheckJpeg(path);
-  }
   else if (format == "BMPImageIO")
   {
     CheckBmp(path);
@@ -301,7 +246,7 @@ CheckFileIsWhole(const std::string & path, itk::ImageIOBase & imageIO)
 void
 CheckMessages(const std::string & path, const std::string & messages)
 {
-  // libtiff's errors, which look like "TIFFReadDirectory: Failed to read ..."; its warnings have "Warning" there.
+  // libtiff's errors look like "TIFFReadDirectory: Failed to read ..."; its warnings have "Warning" there.
   std::istringstream text(messages);
   for (std::string line; std::getline(text, line);)
   {

@@ -5,6 +5,8 @@
 #include "InputFile.h"
 #include "ItkReader.h"
 #include "ItkWriter.h"
+#include "NiftiFiles.h"
+#include "NiftiHeader.h"
 #include "PlainReader.h"
 #include "PlainWriter.h"
 #include "RawReader.h"
@@ -15,6 +17,7 @@
 #include "TiffWriter.h"
 
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
 namespace
@@ -40,6 +43,19 @@ OpenByItk(const std::string & path, const InputOptions &, const WarningSink &)
   return std::make_unique<ItkReader>(path);
 }
 
+std::unique_ptr<VolumeReader>
+OpenNifti(const std::string & path, const InputOptions &, const WarningSink & warn)
+{
+  auto              reader = std::make_unique<ItkReader>(path);
+  const NiftiHeader header(IsNiftiPair(path) ? FindNiftiPair(path).Header : path);
+  if (header.IsPlacedTwice())
+  {
+    warn(path + " has two placements that differ, a qform and a sform: the " +
+         header.GetPlacement(reader->GetDescription().Grid) + " is taken");
+  }
+  return reader;
+}
+
 template <typename TWriter>
 std::unique_ptr<VolumeWriter>
 Create(const std::string & path, const OutputOptions & options, const WarningSink & warn)
@@ -60,7 +76,7 @@ GetVolumeFormats()
   static const std::vector<VolumeFormat> formats = {
     { "MetaImage", { ".mha", ".mhd" }, OpenPlain<OpenMetaImage>, Create<PlainWriter>, true, true, true },
     { "NRRD", { ".nrrd", ".nhdr" }, OpenPlain<OpenNrrd>, Create<PlainWriter>, true, true, true },
-    { "NIfTI", { ".nii", ".nii.gz", ".hdr", ".img", ".img.gz" }, OpenByItk, Create<ItkWriter>, true, false, true },
+    { "NIfTI", { ".nii", ".nii.gz", ".hdr", ".img", ".img.gz" }, OpenNifti, Create<ItkWriter>, true, false, true },
     { "VTK", { ".vtk" }, OpenByItk, Create<ItkWriter>, true, false, false },
     { "HDF5", { ".h5", ".hdf5", ".hdf", ".he5" }, OpenByItk, Create<ItkWriter>, true, false, true },
     { "GIPL", { ".gipl", ".gipl.gz" }, OpenByItk, Create<ItkWriter>, false, false, true },
@@ -107,6 +123,40 @@ RefuseChoices(const std::string & path, const InputOptions & options)
   }
 }
 
+/** Files of an older kind do not say in their first bytes that they are DICOM. */
+bool
+HasDicomEnding(const std::string & path)
+{
+  const std::string name = ToLower(path);
+  return HasEnding(name, ".dcm") || HasEnding(name, ".dicom") || HasEnding(name, ".ima");
+}
+
+std::unique_ptr<VolumeReader>
+OpenFolder(const std::string & path, const InputOptions & options, const WarningSink & warn)
+{
+  if (!HoldsSlices(path))
+  {
+    return OpenDicom(path, options, warn);
+  }
+  std::error_code                 error;
+  std::set<std::filesystem::path> files; // in an order that does not depend on the file system
+  for (const auto & entry : std::filesystem::directory_iterator(path, error))
+  {
+    files.insert(entry.path());
+  }
+  for (const std::filesystem::path & file : files)
+  {
+    if (FindVolumeFormat(file.string()) == nullptr && std::filesystem::is_regular_file(file, error) &&
+        IsDicomFile(file.string()))
+    {
+      FailToRead(path,
+                 "it holds both DICOM files, such as " + file.filename().string() +
+                   ", and pictures; put those that make the volume into a folder of their own");
+    }
+  }
+  return OpenSliceFolder(path, options, warn);
+}
+
 std::unique_ptr<VolumeReader>
 OpenAny(const std::string & path, const InputOptions & options, const WarningSink & warn)
 {
@@ -116,9 +166,9 @@ OpenAny(const std::string & path, const InputOptions & options, const WarningSin
   }
   if (std::filesystem::is_directory(path))
   {
-    return HoldsSlices(path) ? OpenSliceFolder(path, options, warn) : OpenDicom(path, options, warn);
+    return OpenFolder(path, options, warn);
   }
-  if (IsDicomFile(path))
+  if (IsDicomFile(path) || HasDicomEnding(path))
   {
     return OpenDicom(path, options, warn);
   }

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ItkReader.h"
+#include "Bitmap.h"
 #include "BoxRuns.h"
 #include "FileIntegrity.h"
 #include "HeaderText.h"
 #include "InputFile.h"
+#include "JpegIntegrity.h"
 #include "NiftiFiles.h"
+#include "NiftiHeader.h"
 #include "OneLineMessage.h"
 #include "PixelComponent.h"
+#include "WatchedRun.h"
 
 #include "itkImageFileReader.h" // registers the formats
 #include "itkMetaDataObject.h"
@@ -153,12 +157,15 @@ std::string
 GetReason(const std::exception & error)
 {
   const auto * const itkError = dynamic_cast<const itk::ExceptionObject *>(&error);
-  return MakeOneLine(itkError != nullptr ? itkError->GetDescription() : error.what());
+  const std::string  text = MakeOneLine(itkError != nullptr ? itkError->GetDescription() : error.what());
+  const std::string  start = "ITK ERROR: ";
+  return text.rfind(start, 0) == 0 ? text.substr(start.size()) : text;
 }
 
 ItkReader::ItkReader(const std::string & path)
   : m_Path(path)
 {
+  const WatchedTask task("cannot read " + path);
   if (HasNiftiEndingInMixedCase(path))
   {
     FailToRead(path, "NIfTI files' endings are in small letters or in capitals, not in both; rename it");
@@ -168,6 +175,11 @@ ItkReader::ItkReader(const std::string & path)
     FindNiftiPair(path); // says which file of the two is not there
   }
   InputFile{ path }; // says why it cannot be opened, and keeps pipes from being waited for
+  const std::string fault = FindJpegFault(path);
+  if (!fault.empty())
+  {
+    FailToRead(path, "it is damaged or truncated (" + fault + ")");
+  }
   const std::string known = GetKnownEnding(path);
   m_Links = known.empty() ? nullptr : LinkFolder::Get();
   const std::string name = m_Links == nullptr ? path : m_Links->Link(path, known);
@@ -177,6 +189,10 @@ ItkReader::ItkReader(const std::string & path)
   {
     m_ImageIO = FindByEnding(path);
   }
+  if (m_ImageIO.IsNull() && NiftiHeader(path).IsOfVersion2())
+  {
+    FailToRead(path, "it is a NIfTI-2 file, of which only version 1 is supported; save it as NIfTI-1 or NRRD");
+  }
   if (m_ImageIO.IsNull())
   {
     FailToRead(path,
@@ -185,8 +201,15 @@ ItkReader::ItkReader(const std::string & path)
   }
   try
   {
-    m_ImageIO->SetFileName(name);
-    m_ImageIO->ReadImageInformation();
+    if (std::string(m_ImageIO->GetNameOfClass()) == "BMPImageIO")
+    {
+      m_ImageIO = OpenBitmap(name);
+    }
+    else
+    {
+      m_ImageIO->SetFileName(name);
+      m_ImageIO->ReadImageInformation();
+    }
   }
   catch (const itk::ExceptionObject & error)
   {
@@ -212,6 +235,7 @@ ItkReader::GetScratchBytes(std::uint64_t partBytes) const
 void
 ItkReader::ReadRegion(const Box & box, void * voxels)
 {
+  const WatchedTask  task("cannot read " + m_Path);
   itk::ImageIORegion region(static_cast<unsigned int>(box.size()));
   for (unsigned int axis = 0; axis < box.size(); ++axis)
   {
@@ -225,7 +249,9 @@ ItkReader::ReadRegion(const Box & box, void * voxels)
   }
   catch (const itk::ExceptionObject & error)
   {
-    FailToRead(m_Path, GetReason(error));
+    const std::string & format = m_Description.Format;
+    const bool          isPicture = format == "PNG" || format == "JPEG" || format == "BMP";
+    FailToRead(m_Path, isPicture ? "its pixels cannot be decoded; it is damaged or truncated" : GetReason(error));
   }
 }
 

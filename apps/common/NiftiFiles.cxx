@@ -30,8 +30,9 @@ GetEnding(const std::string & path)
 std::string
 FindFile(const std::string & path, const std::string & stem, const std::string & ending, const std::string & gz)
 {
-  const bool isPlain = fs::exists(stem + ending);
-  const bool isCompressed = fs::exists(stem + ending + gz);
+  std::error_code error; // a name may be too long to exist
+  const bool      isPlain = fs::exists(stem + ending, error);
+  const bool      isCompressed = fs::exists(stem + ending + gz, error);
   if (isPlain && isCompressed)
   {
     FailToRead(path,

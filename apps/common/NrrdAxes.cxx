@@ -240,27 +240,33 @@ NrrdAxes::FindDirections(std::size_t first, ImageGrid & grid) const
 void
 NrrdAxes::FindSpacings(std::size_t first, ImageGrid & grid) const
 {
-  if (m_Fields.Find("axismaxs") || m_Fields.Find("spacedirections"))
+  if (m_Fields.Find("spacedirections"))
   {
-    throw HeaderNotUnderstood("axes given by their ends");
+    throw HeaderNotUnderstood("directions without a space");
   }
   const auto spacings = SplitWords(m_Fields.Find("spacings").value_or(""));
   const auto minima = SplitWords(m_Fields.Find("axismins").value_or(""));
+  const auto maxima = SplitWords(m_Fields.Find("axismaxs").value_or(""));
   const auto centers = SplitWords(m_Fields.Find("centers").value_or(""));
-  for (const auto * words : { &spacings, &minima, &centers })
+  for (const auto * words : { &spacings, &minima, &maxima, &centers })
   {
     if (!words->empty() && words->size() != m_Count)
     {
-      FailToRead(m_Path, "its header has not a spacing, a least position or a centering for each axis");
+      FailToRead(m_Path, "its header has not a spacing, a least or greatest position or a centering for each axis");
     }
   }
   for (std::size_t axis = 0; axis < grid.Size.size(); ++axis)
   {
     const std::size_t i = first + axis;
-    const double      spacing = spacings.empty() ? 1.0 : ParseReal(m_Path, "spacings", spacings[i]);
-    grid.Spacing[axis] = std::isnan(spacing) ? 1.0 : spacing;
-    const double minimum = minima.empty() ? std::nan("") : ParseReal(m_Path, "axis mins", minima[i]);
+    const auto        parse = [&](const char * field, const std::vector<std::string> & words) {
+      return words.empty() ? std::nan("") : ParseReal(m_Path, field, words[i]);
+    };
     const bool   isNode = !centers.empty() && ToLower(centers[i]) == "node";
+    const double minimum = parse("axis mins", minima);
+    const double steps = static_cast<double>(grid.Size[axis]) - (isNode ? 1.0 : 0.0);
+    const double between = (parse("axis maxs", maxima) - minimum) / steps;
+    const double spacing = parse("spacings", spacings);
+    grid.Spacing[axis] = !std::isnan(spacing) ? spacing : std::isfinite(between) ? between : 1.0;
     grid.Origin[axis] = std::isnan(minimum) ? 0.0 : minimum + (isNode ? 0.0 : grid.Spacing[axis] / 2.0);
   }
 }

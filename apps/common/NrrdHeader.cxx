@@ -134,9 +134,13 @@ ReadNrrdHeader(const std::string & path)
   description.Component = known->second;
   const std::string encoding = ToLower(fields.Get("encoding"));
   layout.IsCompressed = encoding == "gz" || encoding == "gzip";
-  if (!layout.IsCompressed && encoding != "raw")
+  if (encoding == "ascii" || encoding == "text" || encoding == "txt" || encoding == "hex")
   {
     throw HeaderNotUnderstood("the encoding " + encoding);
+  }
+  if (!layout.IsCompressed && encoding != "raw")
+  {
+    FailToRead(path, "its encoding " + encoding + " is not supported; raw, gzip, ascii and hex are");
   }
   NrrdAxes(path, fields).Describe(description);
   CheckDescription(path, description);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "Bitmap.h"
 #include "InputFile.h"
+#include "JpegIntegrity.h"
 #include "OneLineMessage.h"
 #include "SliceFile.h"
 
-#include "itkBMPImageIO.h"
 #include "itkJPEGImageIO.h"
 #include "itkPNGImageIO.h"
 
@@ -13,30 +14,18 @@
 
 namespace
 {
-/** Whether a colour table says no more than the values do. */
-bool
-IsGreyRamp(const itk::BMPImageIO::PaletteType & palette)
-{
-  bool isRamp = palette.size() == 256;
-  for (std::size_t i = 0; isRamp && i < palette.size(); ++i)
-  {
-    isRamp = palette[i].GetRed() == i && palette[i].GetGreen() == i && palette[i].GetBlue() == i;
-  }
-  return isRamp;
-}
-
 itk::ImageIOBase::Pointer
-MakeImageIO(const std::string & format)
+ReadHeader(const std::string & path, const std::string & format)
 {
-  if (format == "PNG")
-  {
-    return itk::PNGImageIO::New().GetPointer();
-  }
   if (format == "BMP")
   {
-    return itk::BMPImageIO::New().GetPointer();
+    return OpenBitmap(path);
   }
-  return itk::JPEGImageIO::New().GetPointer();
+  itk::ImageIOBase::Pointer imageIO = format == "PNG" ? itk::ImageIOBase::Pointer(itk::PNGImageIO::New())
+                                                      : itk::ImageIOBase::Pointer(itk::JPEGImageIO::New());
+  imageIO->SetFileName(path);
+  imageIO->ReadImageInformation();
+  return imageIO;
 }
 
 /** A slice in a format that ITK reads whole. */
@@ -45,12 +34,11 @@ class PictureSlice : public SliceFile
 public:
   PictureSlice(const std::string & path, const std::string & format)
     : m_Path(path)
-    , m_ImageIO(MakeImageIO(format))
   {
     this->CheckEnds(format);
     try
     {
-      this->ReadHeader(format);
+      m_ImageIO = ReadHeader(path, format);
     }
     catch (const std::exception & error)
     {
@@ -90,6 +78,11 @@ public:
   void
   Read(const TiffRegion & region, void * pixels) override
   {
+    const std::string fault = FindJpegFault(m_Path);
+    if (!fault.empty())
+    {
+      this->Fail("it is damaged (" + fault + ')');
+    }
     std::vector<char>  whole(static_cast<std::size_t>(this->GetScratchBytes()));
     itk::ImageIORegion all(2);
     all.SetSize(0, m_Page.Width);
@@ -113,22 +106,6 @@ public:
   }
 
 private:
-  /** ITK makes colours of every colour table unless it is told not to, also of the grey ones of 8-bit BMP files. */
-  void
-  ReadHeader(const std::string & format)
-  {
-    m_ImageIO->SetFileName(m_Path);
-    m_ImageIO->SetExpandRGBPalette(format != "BMP");
-    m_ImageIO->ReadImageInformation();
-    const auto * const bitmap = dynamic_cast<const itk::BMPImageIO *>(m_ImageIO.GetPointer());
-    if (bitmap != nullptr && m_ImageIO->GetIsReadAsScalarPlusPalette() && !IsGreyRamp(bitmap->GetColorPalette()))
-    {
-      m_ImageIO = MakeImageIO(format);
-      m_ImageIO->SetFileName(m_Path);
-      m_ImageIO->ReadImageInformation();
-    }
-  }
-
   [[noreturn]] void
   Fail(const std::string & reason) const
   {

@@ -279,7 +279,10 @@ RunWatched(const std::function<int()> & run, double longestOpening)
     return WEXITSTATUS(ending.Status);
   }
   const std::string task = GetRunRecord().Task.Get();
-  Tell((task.empty() ? "" : task + ": ") + Explain(ending));
+  const bool        mayBeDamaged =
+    task.rfind("cannot read ", 0) == 0 && WIFSIGNALED(ending.Status) && WTERMSIG(ending.Status) != SIGKILL;
+  Tell((task.empty() ? "" : task + ": ") +
+       (mayBeDamaged ? "the file is damaged, or of a kind that is not supported: " : "") + Explain(ending));
   return 1;
 }
 

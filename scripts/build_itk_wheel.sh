@@ -43,8 +43,9 @@ build_wheel()
 {
   rm -rf "$folder/wheel"
   CMAKE_BUILD_PARALLEL_LEVEL=$(nproc) pip wheel --no-deps --no-build-isolation --wheel-dir "$folder/wheel" \
-    -C cmake.define.ITK_DIR="$folder/build" -C cmake.define.ITK_USE_SYSTEM_CASTXML=ON \
-    -C cmake.define.ITK_USE_SYSTEM_SWIG=ON "$repository/wrapping"
+    --config-settings=cmake.define.ITK_DIR="$folder/build" \
+    --config-settings=cmake.define.ITK_USE_SYSTEM_CASTXML=ON \
+    --config-settings=cmake.define.ITK_USE_SYSTEM_SWIG=ON "$repository/wrapping"
 }
 
 make_environment venv 'cmake==3.31.*' ninja numpy 'scikit-build-core>=0.10' swig==4.3.1

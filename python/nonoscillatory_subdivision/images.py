@@ -56,8 +56,11 @@ class SimpleITKAdapter:
     def to_array(self, image: Any) -> tuple[NDArray[Any], int | None]:
         import SimpleITK
 
+        kind = image.GetPixelIDTypeAsString()
+        if "label" in kind:
+            raise TypeError(f"the image is a {kind}, which has no array: pass SimpleITK.LabelMapToLabel(image)")
         array = SimpleITK.GetArrayViewFromImage(image)
-        is_vector = "vector" in image.GetPixelIDTypeAsString()
+        is_vector = "vector" in kind
         return array, array.ndim - 1 if is_vector else None
 
     def from_array(self, array: NDArray[Any], image: Any, axes: Sequence[int], levels: int) -> Any:
@@ -87,7 +90,10 @@ class ITKAdapter:
         dimension = image.GetImageDimension()
         is_same_type = array.dtype == itk.array_view_from_image(image).dtype
         kind = {"ttype": type(image)} if is_same_type else {"is_vector": array.ndim > dimension}
-        result = itk.image_from_array(array, **kind)
+        try:
+            result = itk.image_from_array(array, **kind)
+        except KeyError:
+            raise TypeError(f"dtype {array.dtype} is none of which ITK has images in Python") from None
         # The indices are doubled as well, so the origin is that of index 0, wherever the first voxel is.
         spacing, origin = _itk_grid(image, axes, levels, [0] * dimension)
         region = result.GetLargestPossibleRegion()

@@ -155,6 +155,8 @@ def _check(image: _zarr_image.Image, wanted: _Wanted, chunks: Sequence[int] | No
     _arguments.make_options(
         wanted.scheme, wanted.tension, wanted.boundary, wanted.axes, image.array.ndim, wanted.is_labels
     )
+    if wanted.is_labels:
+        _arguments.check_boundary_label(wanted.boundary, image.array.dtype)
     if chunks is not None and (len(chunks) != image.array.ndim or min(chunks) < 1):
         raise ValueError(f"chunks {tuple(chunks)} are not {image.array.ndim} positive numbers")
 

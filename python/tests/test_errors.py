@@ -114,6 +114,7 @@ def test_a_failed_call_leaves_out_alone():
         (((1, 1), (0, 0, 0)), r"origin has shape \(3,\)"),
         (((1, 1), (0, 0), np.eye(3)), r"direction has shape \(3, 3\)"),
         (((1,) * 5, (0,) * 5), "spacing"),
+        (((1, np.nan), (0, 0)), "nan"),
     ],
 )
 def test_grids(arguments, message):

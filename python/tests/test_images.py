@@ -62,6 +62,8 @@ def test_options_for_arrays_alone_are_refused(volume):
             subdivide(image, **{name: value})
     with pytest.raises(TypeError, match="complex"):
         subdivide(sitk.Image((3, 3), sitk.sitkComplexFloat32))
+    with pytest.raises(TypeError, match="LabelMapToLabel"):
+        subdivide(sitk.Image((3, 3), sitk.sitkLabelUInt8))
 
 
 def test_itk(volume):
@@ -78,6 +80,12 @@ def test_itk(volume):
     assert list(result.GetLargestPossibleRegion().GetIndex()) == [4, -6, 2]
     np.testing.assert_array_equal(itk.array_view_from_image(result), subdivide(volume))
     assert_same_box(result, image, (1.5, -3.5, 0.5), (8.5, 2.5, 5.5), (3.5, -6.5, 1.5), (17.5, 5.5, 11.5))
+
+
+def test_itk_has_no_such_images(volume):
+    itk = pytest.importorskip("itk")
+    with pytest.raises(TypeError, match="float16"):
+        subdivide(itk.image_from_array(volume), dtype=np.float16)
 
 
 def test_itk_colours():
@@ -116,12 +124,6 @@ def test_xarray_coordinates_may_fall(dtype):
     result = subdivide(xarray.DataArray(np.zeros(3), {"x": places}, ("x",)))
     step = (float(places[1]) - float(places[0])) / 2
     np.testing.assert_allclose(result["x"], 120 - step / 2 + step * np.arange(6))
-
-
-def test_xarray_masked_data_is_refused():
-    xarray = pytest.importorskip("xarray")
-    with pytest.raises(TypeError, match="masked"):
-        subdivide(xarray.DataArray(np.ma.masked_array([1.0, 2.0], [True, False])))
 
 
 @pytest.mark.parametrize("dimension", [2, 4])

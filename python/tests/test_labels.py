@@ -113,6 +113,8 @@ def test_simpleitk(labels):
         (np.zeros(4, int), {"scheme": "nonoscillatory"}, ValueError, "nonoscillatory"),
         (np.zeros(4, int), {"tension": -1}, ValueError, "-1"),
         (np.zeros(4, np.uint8), {"boundary": 0.5}, ValueError, "0.5"),
+        (np.zeros(4, np.uint8), {"boundary": -1}, ValueError, "-1"),
+        (np.zeros(4, bool), {"boundary": 2}, ValueError, "boundary 2"),
         (np.zeros((0, 4), int), {}, ValueError, r"\(0, 4\)"),
     ],
 )

@@ -17,6 +17,14 @@ def step_image():
     return image
 
 
+def test_after_a_filter_of_itk_itself():
+    """Must be the first: the first filter of a process says what kind of threads all others have, so that an ITK within
+    the module that knows fewer kinds than the ITK beside it fails only then."""
+    image = itk.cast_image_filter(step_image(), ttype=(type(step_image()), itk.Image[itk.F, 2]))
+    result = itk.non_oscillatory_subdivision_image_filter(image)
+    np.testing.assert_allclose(1024.0 * itk.array_from_image(result), [NON_OSCILLATORY] * 6, rtol=0, atol=1e-3)
+
+
 def test_values_of_each_scheme():
     for scheme, expected in ((SCHEMES.Scheme_NonOscillatory, NON_OSCILLATORY), (SCHEMES.Scheme_Linear, LINEAR)):
         result = itk.non_oscillatory_subdivision_image_filter(step_image(), scheme=scheme)

@@ -93,8 +93,9 @@ def prepare(folder: Path, targets: set[str], jobs: int) -> None:
         shutil.copytree(ROOT / name, folder / name)
     launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
+    has_filter = f"-DFaults_HAVE_FILTER={'ON' if 'FilterTests' in targets else 'OFF'}"
     source = str(folder / "test" / "faults")
-    subprocess.run(["cmake", "-S", source, "-B", str(folder / "build"), *generator, *launcher],
+    subprocess.run(["cmake", "-S", source, "-B", str(folder / "build"), *generator, *launcher, has_filter],
                    check=True, stdout=subprocess.DEVNULL)
     for target in sorted(targets):
         built = build(folder, target, jobs)

@@ -194,7 +194,8 @@ private:
   void
   ExpectReference(const TImage * const whole)
   {
-    if (m_Image->GetBufferedRegion().GetNumberOfPixels() > 150)
+    constexpr std::size_t most = D > 3 ? 12 : D > 2 ? 50 : 150;
+    if (m_Image->GetBufferedRegion().GetNumberOfPixels() > most)
     {
       return; // The slow reference would take longer than all else.
     }

@@ -29,7 +29,8 @@ sys.dont_write_bytecode = True
 from faults import FAULTS, Fault  # noqa: E402  (the path is set above)
 
 COPIED = ("include", "src", "test")
-LONGEST_TEST = 300  # seconds; a fault may make a loop endless
+LONGEST_TEST = 1200  # seconds; a fault may make a loop endless
+CASES = "60"  # of each generated test, unless the environment says otherwise: fewer than its own number, for speed
 FAILED_TEST = re.compile(r"^\[  FAILED  \] ([\w/.]+)", re.MULTILINE)
 
 
@@ -61,8 +62,10 @@ def build(folder: Path, target: str, jobs: int) -> subprocess.CompletedProcess[s
 def run_tests(folder: Path, target: str) -> str:
     """The first test that fails, or nothing."""
     command = [str(folder / "build" / target), "--gtest_fail_fast", "--gtest_brief=1"]
+    environment = {"SUBDIVISION_CASES": CASES, **os.environ}
     try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=LONGEST_TEST)
+        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=LONGEST_TEST,
+                              env=environment)
     except subprocess.TimeoutExpired:
         return f"no end within {LONGEST_TEST} s"
     if done.returncode == 0:

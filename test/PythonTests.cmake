@@ -48,6 +48,8 @@ function(add_python_test script)
 endfunction()
 
 add_python_test(include_arrows_test.py)
+# Planting all of the faults takes an hour; that their texts stand in the sources is seen at once.
+add_python_test(faults/planted_faults_test.py)
 add_python_test(subdivide_volume_test.py PROGRAMS SubdivideVolume)
 add_python_test(subdivide_volume_crashes_test.py PROGRAMS SubdivideVolume)
 add_python_test(subdivide_volume_headers_test.py PROGRAMS SubdivideVolume)

@@ -6,6 +6,7 @@
 #include "BenchmarkOptions.h"
 #include "ComparisonTable.h"
 #include "FilterRows.h"
+#include "LabelRows.h"
 #include "MachineContext.h"
 #include "MeasureRow.h"
 #include "MultiplyAddPeak.h"
@@ -68,6 +69,8 @@ RegisterWorkload(const std::string & pixel, const Workload & workload, const Ben
 {
   std::vector<BenchmarkRow>       rows = MakeFilterRows<TPixel>(options.WithWindowedSinc);
   const std::vector<BenchmarkRow> floorRows = MakeOutputFloorRows<TPixel>();
+  const std::vector<BenchmarkRow> labelRows = MakeLabelRows<TPixel>(options.WithWindowedSinc);
+  rows.insert(rows.end(), labelRows.cbegin(), labelRows.cend());
   rows.insert(rows.end(), floorRows.cbegin(), floorRows.cend());
   for (const auto memory : { OutputMemory::Fresh, OutputMemory::Reused })
   {

@@ -28,12 +28,15 @@ namespace
 {
 using namespace subdivision_benchmark;
 
-/** Makes "fresh output" mean it: without this, glibc keeps released blocks of up to 32 MiB and hands them out again. */
+/** Makes "fresh output" mean it: without this, glibc keeps released blocks of up to 32 MiB and hands them out again.
+ * Once that threshold is set, glibc no longer raises the other where a program releases much, and what the filters
+ * compute in would go back to the system after every use. */
 void
 ReturnReleasedOutputsToSystem()
 {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
 #endif
 }
 

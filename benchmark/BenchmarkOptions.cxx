@@ -58,12 +58,13 @@ ParseCommandLine(int argc, char * argv[])
   app
     .add_option("--slow-repetitions",
                 options.SlowRepetitions,
-                "Repetitions of the rows that take tens of seconds (B-splines and windowed sinc)")
+                "Repetitions of the rows that take tens of seconds (B-splines, windowed sinc, Gaussian of labels)")
     ->check(CLI::PositiveNumber)
     ->capture_default_str();
-  app.add_flag("--sinc",
-               options.WithWindowedSinc,
-               "Also time ResampleImageFilter with windowed sinc: minutes a row at 250 voxels");
+  app.add_flag(
+    "--sinc",
+    options.WithWindowedSinc,
+    "Also time ResampleImageFilter with windowed sinc and, of labels, a Gaussian: minutes a row at 250 voxels");
 
   // Google Benchmark would print its own help and end the program.
   for (int i = 1; i < argc; ++i)

@@ -6,6 +6,7 @@
 #include "BenchmarkOptions.h"
 #include "ComparisonTable.h"
 #include "FilterRows.h"
+#include "LabelRows.h"
 #include "MachineContext.h"
 #include "MeasureRow.h"
 #include "MultiplyAddPeak.h"
@@ -27,12 +28,15 @@ namespace
 {
 using namespace subdivision_benchmark;
 
-/** Makes "fresh output" mean it: without this, glibc keeps released blocks of up to 32 MiB and hands them out again. */
+/** Makes "fresh output" mean it: without this, glibc keeps released blocks of up to 32 MiB and hands them out again.
+ * Once that threshold is set, glibc no longer raises the other where a program releases much, and what the filters
+ * compute in would go back to the system after every use. */
 void
 ReturnReleasedOutputsToSystem()
 {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
 #endif
 }
 
@@ -68,6 +72,8 @@ RegisterWorkload(const std::string & pixel, const Workload & workload, const Ben
 {
   std::vector<BenchmarkRow>       rows = MakeFilterRows<TPixel>(options.WithWindowedSinc);
   const std::vector<BenchmarkRow> floorRows = MakeOutputFloorRows<TPixel>();
+  const std::vector<BenchmarkRow> labelRows = MakeLabelRows<TPixel>(options.WithWindowedSinc);
+  rows.insert(rows.end(), labelRows.cbegin(), labelRows.cend());
   rows.insert(rows.end(), floorRows.cbegin(), floorRows.cend());
   for (const auto memory : { OutputMemory::Fresh, OutputMemory::Reused })
   {

@@ -4,6 +4,7 @@
 
 import argparse
 import json
+import math
 import statistics
 import sys
 from collections import defaultdict
@@ -11,6 +12,19 @@ from collections import defaultdict
 REFERENCE = "ExpandLinear"
 SUBJECT = "NonOscillatory"
 PEAK = "MultiplyAddPeak@"
+# The rows of the README's table.
+README_ROWS = {
+    "NonOscillatory": "non-oscillatory",
+    "Restored": "restored",
+    "Linear": "linear",
+    "BoundedLinear": "bounded linear",
+    "BSpline": "B-spline scheme",
+    "LabelMap": "label map of 20 organs (`LabelSubdivisionImageFilter`)",
+    "ExpandNearest": "`ExpandImageFilter`, nearest",
+    "ExpandLinear": "`ExpandImageFilter`, linear",
+    "ResampleBSpline3": "`ResampleImageFilter`, B-spline of order 3",
+    "ResampleBSpline5": "`ResampleImageFilter`, B-spline of order 5",
+}
 
 
 class Row:
@@ -130,6 +144,27 @@ def print_workload(workload, memories, peaks, context):
     print_table(header, lines)
 
 
+def two_digits(value):
+    """The value to two significant digits, and never with an exponent."""
+    decimals = max(0, 1 - math.floor(math.log10(value)))
+    return f"{value:.{decimals}f}"
+
+
+def print_readme_table(workload, memories):
+    """How many times as fast as the reference the README's rows are; the reference's own time in seconds."""
+    pixel, size, threads = workload
+    print(f"{size}³ {pixel}, {format_threads(threads)}\n\n| filter | fresh memory | reused |\n|---|---:|---:|")
+    for name, title in README_ROWS.items():
+        cells = []
+        for rows in (memories["fresh"], memories["reused"]):
+            row, reference = rows.get(name), rows.get(REFERENCE)
+            cell = two_digits(reference.time / row.time) if row and reference else ""
+            cells.append(f"1 ({row.time:.2f} s)" if cell and name == REFERENCE else cell)
+        if any(cells):
+            print(f"| {title} | {cells[0]} | {cells[1]} |")
+    print()
+
+
 def print_spread(workload, memories):
     pixel, size, threads = workload
     lines = [
@@ -156,6 +191,7 @@ def print_peaks(peaks, use_processor_time):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("json", help="the file that CompareUpsampling wrote with --benchmark_out")
+    parser.add_argument("--readme", action="store_true", help="print the README's table alone")
     parser.add_argument("--spread", action="store_true", help="print the least and the most time of each row, too")
     parser.add_argument(
         "--processor-time",
@@ -175,6 +211,10 @@ def main():
     print(f"- load average at the start: {context['load_avg'][0]:.1f}")
     print(f"- times: {'processor time of all threads' if arguments.processor_time else 'wall clock'}, medians\n")
     workloads, peaks = read_rows(results["benchmarks"], arguments.processor_time)
+    if arguments.readme:
+        for workload, memories in workloads.items():
+            print_readme_table(workload, memories)
+        return
     for workload, memories in workloads.items():
         print_workload(workload, memories, peaks.get(workload[2], {}), context)
     if arguments.spread:

@@ -78,7 +78,7 @@ def methods():
 
 
 def measure(doubled, true):
-    """Wrong children by the true body's boundary voxels (those with a neighbour outside), and the error of the volume."""
+    """Wrong children by the true body's boundary voxels (with a neighbour outside), and the error of the volume."""
     inside = true.astype(bool)
     boundary = inside & ~ndimage.binary_erosion(inside)
     return np.count_nonzero(doubled != true) / np.count_nonzero(boundary), doubled.sum() / true.sum() - 1.0
@@ -128,7 +128,9 @@ def findings(measured, setting):
         f"The volume of {smallest} changes by {100 * lost[RESTORED]:+.1f} %, with the B-spline by"
         f" {100 * lost['B-spline']:+.1f} %.",
     )
-    peers = {peer: [measured[peer, name][0] / measured[RESTORED, name][0] for name in names] for peer in ITK_INTERPOLATORS}
+    peers = {
+        peer: [measured[peer, name][0] / measured[RESTORED, name][0] for name in names] for peer in ITK_INTERPOLATORS
+    }
     yield Finding(
         "ITK's label interpolators leave more children with a wrong label on every body.",
         all(min(ratios) > 1 for ratios in peers.values()),

@@ -189,7 +189,7 @@ def grey_findings(value, names, chosen):
         "Restored with tension 0 has better normals than smoothing the mesh, at either pass band, and than a Gaussian"
         " before, in every case but binary labels.",
         all(mine < theirs for mine, theirs in angles),
-        f"It and the best of the three: {', '.join(f'{mine:.2f} and {theirs:.2f}' for mine, theirs in angles)} degrees.",
+        f"It and the best of them: {', '.join(f'{mine:.2f} and {theirs:.2f}' for mine, theirs in angles)} degrees.",
     )
     shares = [
         abs(value(SURFACES_BEST, "bias", *key)) / min(abs(value(m, "bias", *key)) for m in smoothing) for key in keys
@@ -245,8 +245,8 @@ def run(setting, output_folder, paths=()):
             f"A capsule and a rounded box in {SIZE}³ voxels with partial volume, blurred (in voxels) and with white"
             " noise (of the contrast); the isosurface at one half against the exact surface, each triangle at its"
             " centroid, weighted by area. Mesh smoothing is VTK's windowed sinc with 20 iterations; surface nets are"
-            " VTK's, smoothed as they are by default, and need labels. VTK is that of experiments/requirements.txt: other"
-            " versions of its filters find other figures."
+            " VTK's, smoothed as they are by default, and need labels. VTK is that of experiments/requirements.txt:"
+            " other versions of its filters find other figures."
         ),
         *[table(statistic, measured, chosen) for statistic in STATISTICS],
         details,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Coloured meshes side by side in one picture: VTK draws them without a screen (through EGL), Matplotlib lays them out."""
+"""Coloured meshes side by side in one picture: VTK draws them through EGL, without a screen, Matplotlib lays them out."""
 import os
 from dataclasses import dataclass
 

@@ -12,7 +12,8 @@ from report import Finding
 from volumes import VolumeError
 
 EXPERIMENTS = ("phantom", "subsampling", "compression", "metrology", "surfaces", "smoothness", "noise", "label_maps")
-USING_VOLUMES = ("subsampling", "compression", "surfaces", "noise")  # their run() also takes the volumes named on the command line
+# Their run() also takes the volumes named on the command line.
+USING_VOLUMES = ("subsampling", "compression", "surfaces", "noise")
 ASSETS = "results"
 
 INTRODUCTION = """# The paper's experiments, measured with this module

@@ -16,7 +16,6 @@ EXPERIMENTS = pathlib.Path(__file__).resolve().parents[1] / "experiments"
 sys.path.insert(0, str(EXPERIMENTS))
 
 import fitting  # noqa: E402
-import label_maps  # noqa: E402
 import meshes  # noqa: E402
 import metrology  # noqa: E402
 import noise  # noqa: E402
@@ -293,28 +292,6 @@ class Smoothness(unittest.TestCase):
         for name in set(smoothness.methods()) - {"nearest voxel"}:
             with self.subTest(name):
                 self.assertLess(self.measured["partial volume", name]["distance_rms"], 0.1)
-
-
-class LabelMaps(unittest.TestCase):
-    def test_every_peer_puts_the_children_of_a_slab_where_they_belong(self):
-        """Voxels 8 ... 15 along z: a shift of the grid by a quarter of a voxel or more would show on one side."""
-        slab = np.zeros((24, 16, 16), dtype=np.uint8)
-        slab[8:16] = 1
-        for name, double in label_maps.methods().items():
-            with self.subTest(name):
-                doubled = double(slab)
-                self.assertEqual(doubled.dtype, np.uint8)
-                self.assertEqual(np.flatnonzero(doubled[:, 8, 8]).tolist(), list(range(16, 32)))
-
-    def test_measure_counts_wrong_children_by_the_true_boundary(self):
-        true = np.zeros((8, 8, 8), dtype=np.uint8)
-        true[2:6, 2:6, 2:6] = 1  # 64 voxels, 8 of them inside: 56 on the boundary
-        doubled = true.copy()
-        doubled[2, 2, 2:6] = 0
-        doubled[0, 0, 0] = 1
-        wrong, volume = label_maps.measure(doubled, true)
-        self.assertAlmostEqual(wrong, 5 / 56)
-        self.assertAlmostEqual(volume, -3 / 64)
 
 
 class Metrology(unittest.TestCase):

@@ -20,6 +20,7 @@ sys.path.insert(0, str(EXPERIMENTS))
 
 import common  # noqa: E402
 import compression  # noqa: E402
+import label_maps  # noqa: E402
 import phantom  # noqa: E402
 import run  # noqa: E402
 import subsampling  # noqa: E402
@@ -226,6 +227,28 @@ class ComputedTomography(FolderTest):
                 for metric in (1, 2, 3):
                     self.assertGreater(plain[metric], linear[metric])
                     self.assertGreater(linear[metric], kept[metric])
+
+
+class LabelMaps(unittest.TestCase):
+    def test_every_peer_puts_the_children_of_a_slab_where_they_belong(self):
+        """Voxels 8 ... 15 along z: a shift of the grid by a quarter of a voxel or more would show on one side."""
+        slab = np.zeros((24, 16, 16), dtype=np.uint8)
+        slab[8:16] = 1
+        for name, double in label_maps.methods().items():
+            with self.subTest(name):
+                doubled = double(slab)
+                self.assertEqual(doubled.dtype, np.uint8)
+                self.assertEqual(np.flatnonzero(doubled[:, 8, 8]).tolist(), list(range(16, 32)))
+
+    def test_measure_counts_wrong_children_by_the_true_boundary(self):
+        true = np.zeros((8, 8, 8), dtype=np.uint8)
+        true[2:6, 2:6, 2:6] = 1  # 64 voxels, 8 of them inside: 56 on the boundary
+        doubled = true.copy()
+        doubled[2, 2, 2:6] = 0
+        doubled[0, 0, 0] = 1
+        wrong, volume = label_maps.measure(doubled, true)
+        self.assertAlmostEqual(wrong, 5 / 56)
+        self.assertAlmostEqual(volume, -3 / 64)
 
 
 class Compression(unittest.TestCase):

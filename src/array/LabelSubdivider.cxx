@@ -7,6 +7,7 @@
 #include "array/LabelBlock.h"
 #include "array/LabelElection.h"
 #include "array/LabelWriter.h"
+#include "array/OutputMemory.h"
 
 #include <algorithm>
 #include <limits>
@@ -292,7 +293,9 @@ LabelSubdivider::LabelSubdivider(const ConstArrayView & input,
                                  const ArrayView &      output,
                                  const Options &        options)
   : m_Implementation(new Implementation(input, whole, output, options))
-{}
+{
+  AdviseHugePages(output);
+}
 
 LabelSubdivider::~LabelSubdivider() = default;
 

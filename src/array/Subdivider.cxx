@@ -6,16 +6,13 @@
 #include "array/Arguments.h"
 #include "array/CheckedArithmetic.h"
 #include "array/Elements.h"
+#include "array/OutputMemory.h"
 #include "array/RowReader.h"
 #include "array/RowWriter.h"
 #include "array/RunPlan.h"
 #include "array/ScratchPool.h"
-#include "memory/HugePages.h"
 
 #include <string>
-
-#include <algorithm>
-#include <cstdlib>
 
 namespace itk
 {
@@ -33,22 +30,6 @@ GetTileSize(const TileAxes & axes, const TGetSize & getSize)
     return axis == TileAxes::None ? std::size_t{ 1 } : static_cast<std::size_t>(getSize(axis));
   };
   return { sizeOf(axes.X), sizeOf(axes.Y), sizeOf(axes.Z) };
-}
-
-/** Has large outputs that were not touched yet lie on huge pages. */
-void
-AdviseHugePages(const ArrayView & output)
-{
-  auto *      begin = static_cast<unsigned char *>(output.Data);
-  std::size_t bytes = SizeOf(output.Type);
-  for (const ArrayAxis & axis : output.Axes)
-  {
-    const auto extent =
-      static_cast<std::ptrdiff_t>(axis.Size - 1) * axis.Stride * static_cast<std::ptrdiff_t>(SizeOf(output.Type));
-    begin += std::min<std::ptrdiff_t>(extent, 0);
-    bytes += static_cast<std::size_t>(std::abs(extent));
-  }
-  Subdivision::AdviseHugePages(begin, bytes);
 }
 
 } // namespace

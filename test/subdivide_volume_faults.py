@@ -44,6 +44,8 @@ KINDS = {
     "piece mhd": ("scan.mhd", ("--piece", "2/2")),
     "piece nhdr": ("scan.nhdr", ("--piece", "2/2")),
     "piece slices": ("slices/", ("--piece", "2/2")),
+    "all pieces mhd": ("scan.mhd", ("--piece", "1/1")),
+    "all pieces slices": ("slices/", ("--piece", "1/1")),
 }
 DATA_NAME = re.compile(rb"(ElementDataFile = |data file: )(.*)\n")
 
@@ -74,7 +76,7 @@ class Scene:
         self.source = os.path.join(folder, "source.mha")
         self.folder = target or os.path.join(folder, "target")
         self.saved = os.path.join(folder, "saved")
-        self.is_piece = kind.startswith("piece")
+        self.is_piece = "--piece" in options
         self.is_in_place = kind.startswith("in place")
         if not os.path.exists(self.source):
             write_meta(self.source, [size] * 3, "H", noise(size ** 3, 0, 60000))
@@ -96,7 +98,7 @@ class Scene:
         """The old output, kept aside, and what is to become of it. Grids, voxels and sizes of both headers differ."""
         shutil.rmtree(self.saved, ignore_errors=True)
         os.makedirs(os.path.join(self.saved, "slices" if self.name == "slices/" else ""))
-        plain = [option for option in self.options if option not in ("--piece", "2/2")]
+        plain = [option for option in self.options if option not in ("--piece", "1/1", "2/2")]
         old = ["--axes", "xy"] if self.is_in_place else ["--scheme", "linear", "--spacing", "2.5"]
         result = self.run(self.program, self.source, os.path.join(self.saved, self.name), *plain, *old)
         assert result.returncode == 0, result.stderr
@@ -120,7 +122,7 @@ class Scene:
             with open(os.path.join(self.folder, name), "wb") as file:
                 file.write(f"{name} is precious\n".encode())
         shutil.copytree(self.saved, self.folder, dirs_exist_ok=True)
-        if self.is_piece:
+        if "2/2" in self.options:
             first = [*self.get_command()]
             first[first.index("2/2")] = "1/2"
             result = self.run(*first)

@@ -152,8 +152,9 @@ class Kills(unittest.TestCase):
         self.folder = folder.name
 
     def test_at_random_moments(self):
-        kills = RandomKills(self.program, self.folder, KINDS, 1, 24)
-        for number, kind in enumerate(KINDS):
+        kinds = list(KINDS)[1::2]
+        kills = RandomKills(self.program, self.folder, kinds, 1, 24)
+        for number, kind in enumerate(kinds):
             who = WHO[number % len(WHO)]
             self.assertEqual(kills.try_once(kind, who), "", (kind, who))
 

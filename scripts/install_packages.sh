@@ -11,7 +11,7 @@ declare -A packages=(
   [build]="cmake g++ help2man libcli11-dev libgdcm-dev libgdcm-tools libhwy-dev libinsighttoolkit5-dev libisal-dev
     libjpeg-dev libpugixml-dev libtiff-dev ninja-build nlohmann-json3-dev zlib1g-dev"
   [sample]="invesalius-examples python3-matplotlib python3-numpy"
-  [test]="castxml libgtest-dev python3 python3-dev python3-venv"
+  [test]="castxml libgtest-dev openmpi-bin python3 python3-dev python3-venv strace"
   [benchmark]="libbenchmark-dev python3"
   [coverage]="gcovr"
   [wrapping]="castxml git libtbb-dev"

@@ -4,8 +4,10 @@
 environment variable SUBDIVIDE_VOLUME holds the path of the program."""
 
 import array
+import json
 import os
 import random
+import resource
 import unittest
 
 from subdivide_volume_case import PROGRAM, ProgramTest, noise
@@ -78,6 +80,20 @@ class Pieces(ProgramTest):
         write_meta(self.path("in.mha"), [300, 3, 2], "H", noise(1800))
         result = self.subdivide("in.mha", "out.mha", "--streams", 1000)
         self.assertRegex(result.stdout, "(?m)^time .* 24 pieces$")
+
+
+    def test_the_plan_of_a_very_large_volume(self):
+        """It takes little memory itself."""
+        with open(self.path("in.raw"), "wb") as file:
+            try:
+                file.truncate(2 * 8192 ** 3)  # a size, and no bytes
+            except OSError:
+                self.skipTest("the file system has no files of such a size")
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+        result = self.run_program("--info", "--json", "--raw", "8192x8192x8192:uint16", "--threads", 1, "--memory", "500M",
+                                  self.path("in.raw"), self.path("out.mha"), preexec_fn=limit)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertLess(json.loads(result.stdout)["memory_bytes"], 500000000)
 
 
 class Errors(ProgramTest):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PieceAgreement.h"
 
+#include "FileState.h"
 #include "SlicerDescription.h"
 
 #include "NonOscillatorySubdivision/Target.h"
@@ -8,8 +9,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <sstream>
-
-#include <sys/stat.h>
 
 namespace fs = std::filesystem;
 
@@ -46,62 +45,6 @@ Spell(const ImageDescription & image)
     text += " (" + Spell(direction) + ")";
   }
   return text + ", " + std::to_string(image.NumberOfComponents) + " x " + GetName(image.Component);
-}
-
-/** Sizes and times of files, summed up. */
-class Files
-{
-public:
-  void
-  Add(const fs::path & path)
-  {
-    struct stat status = {};
-    if (stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode))
-    {
-      ++m_Number;
-      m_Bytes += static_cast<std::uint64_t>(status.st_size);
-      const std::int64_t time = status.st_mtim.tv_sec * std::int64_t{ 1000000000 } + status.st_mtim.tv_nsec;
-      m_Newest = std::max(m_Newest, time);
-    }
-  }
-
-  std::string
-  Describe() const
-  {
-    return std::to_string(m_Number) + (m_Number == 1 ? " file of " : " files of ") + std::to_string(m_Bytes) +
-           " bytes, changed at " + std::to_string(m_Newest);
-  }
-
-private:
-  std::uint64_t m_Number = 0;
-  std::uint64_t m_Bytes = 0;
-  std::int64_t  m_Newest = 0;
-};
-
-/** The files of the input: all of a folder, or one with the data files that may be beside it. */
-std::string
-DescribeFiles(const fs::path & input)
-{
-  Files           files;
-  std::error_code error;
-  if (fs::is_directory(input, error))
-  {
-    for (const fs::directory_entry & entry : fs::recursive_directory_iterator(input))
-    {
-      files.Add(entry.path());
-    }
-    return files.Describe();
-  }
-  files.Add(input);
-  for (const char * const ending : { ".raw", ".zraw", ".raw.gz", ".img", ".img.gz", ".hdr" })
-  {
-    const fs::path data = fs::path(input).replace_extension(ending);
-    if (data != input)
-    {
-      files.Add(data);
-    }
-  }
-  return files.Describe();
 }
 
 std::string

@@ -55,6 +55,12 @@ PrintMissingPieces(const Options & options)
 {
   const auto writer = CreatePieceWriter(options.Output, options.Writing, [](const std::string &) {});
   const auto pieces = PieceFolder::FindNumberOfPieces(writer->GetOutput());
+  const auto complete = PieceFolder::FindNumberOfCompletePieces(writer->GetOutput());
+  if (!pieces && complete)
+  {
+    PrintResult(DescribePieces(options, *complete, {}, true));
+    return;
+  }
   if (!pieces)
   {
     throw std::runtime_error("no pieces of " + options.Output + " are being made: none was begun, or all are done");

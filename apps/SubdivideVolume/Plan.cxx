@@ -11,6 +11,7 @@
 
 namespace
 {
+constexpr std::uint64_t MostPieces = 1 << 18; // their list takes memory, too
 constexpr std::uint64_t Megabyte = 1000000;
 constexpr std::uint64_t ScratchBytesPerThread = itk::Subdivision::Subdivider::MostScratchBytesPerThread;
 /** Parts of libraries that are loaded when they are first used, stacks, buffers of files. */
@@ -84,7 +85,8 @@ Planner::Make(const std::uint64_t number, const unsigned int buffers) const
   Plan plan;
   for (const Box & box : m_Boxes)
   {
-    const std::uint64_t parts = this->WritesParts() ? (number + m_Boxes.size() - 1) / m_Boxes.size() : 1;
+    const std::uint64_t most = std::min(number, MostPieces);
+    const std::uint64_t parts = this->WritesParts() ? (most + m_Boxes.size() - 1) / m_Boxes.size() : 1;
     for (const Box & piece : SplitIntoPieces(box, parts))
     {
       plan.Pieces.push_back(piece);
@@ -123,7 +125,8 @@ std::uint64_t
 Planner::FindNumber(const std::uint64_t budget, const unsigned int buffers) const
 {
   std::uint64_t tooFew = 0;
-  std::uint64_t enough = this->WritesParts() ? m_Boxes.size() * GetMaximumNumberOfPieces(m_Boxes.front()) : 1;
+  std::uint64_t enough =
+    this->WritesParts() ? std::min(m_Boxes.size() * GetMaximumNumberOfPieces(m_Boxes.front()), MostPieces) : 1;
   while (enough - tooFew > 1)
   {
     const std::uint64_t middle = std::min(2 * tooFew + 1, tooFew + (enough - tooFew) / 2);

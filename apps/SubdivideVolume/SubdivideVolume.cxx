@@ -4,6 +4,7 @@
 #include "CommandLine.h"
 #include "Dicom.h"
 #include "FileIntegrity.h"
+#include "FileState.h"
 #include "FormatTable.h"
 #include "LevelChain.h"
 #include "LibraryMessages.h"
@@ -155,6 +156,7 @@ Subdivide(const Options & options)
   const WatchedTask     task("cannot process " + options.Input);
   Warnings              warnings(options.Quiet);
   const unsigned int    threads = GetNumberOfThreads(options);
+  const std::string     input = DescribeFiles(options.Input);
   const auto            reader = Open(options, warnings);
   const auto            writer = Create(options, threads, warnings);
   Progress              progress(GetProgressStyle(options));
@@ -168,6 +170,10 @@ Subdivide(const Options & options)
   CheckMessages(options.Input, messages.GetText());
   PassOn(messages, warnings);
   WarnOfRoundedInput(options, reader->GetDescription(), counter.GetInput(), warnings);
+  if (!fs::is_directory(options.Input)) // others may write into a folder
+  {
+    CheckFiles(options.Input, input);
+  }
   writer->Commit();
   progress.Finish();
   const std::string summary = Describe(Summary{ options,
@@ -208,7 +214,8 @@ MakePiece(const Options & options,
       return;
     }
   }
-  Progress progress(GetProgressStyle(options));
+  const std::string input = DescribeFiles(options.Input);
+  Progress          progress(GetProgressStyle(options));
   writer.Open(folder.GetOutputFolder(), folder.MakeTemporaryFolder(), piece);
   if (!piece.empty())
   {
@@ -222,6 +229,7 @@ MakePiece(const Options & options,
     WarnOfRoundedInput(options, reader.GetDescription(), counter.GetInput(), warnings);
   }
   writer.Commit();
+  CheckFiles(options.Input, input);
   folder.Note(options.Piece.Number, writer.ReadChecksum(folder.GetOutputFolder(), piece));
   progress.Finish();
 }
@@ -246,12 +254,15 @@ SubdividePiece(const Options & options)
   LevelChain chain(reader->GetDescription(), options, threads);
   writer->Begin(chain.GetOutput());
   PieceFolder folder(writer->GetOutput(), options.Piece.Pieces);
-  folder.Join(MakePieceAgreement(options, reader->GetDescription(), chain.GetOutput()), *writer);
-  bool isComplete = false;
+  const bool  isToDo = folder.Join(MakePieceAgreement(options, reader->GetDescription(), chain.GetOutput()), *writer);
+  bool        isComplete = !isToDo;
   try
   {
-    MakePiece(options, *reader, chain, *writer, folder, warnings);
-    isComplete = folder.Finish(*writer);
+    if (isToDo)
+    {
+      MakePiece(options, *reader, chain, *writer, folder, warnings);
+      isComplete = folder.Finish(*writer);
+    }
   }
   catch (const std::exception &)
   {

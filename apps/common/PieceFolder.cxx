@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PieceFolder.h"
+#include "AgreementText.h"
+#include "FinishLock.h"
 #include "Interrupt.h"
+#include "PieceMark.h"
 #include "StagedFolder.h"
 
 #include <algorithm>
@@ -11,7 +14,6 @@
 #include <stdexcept>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -53,34 +55,12 @@ MakeUniqueFolder(const fs::path & start)
   return pattern;
 }
 
-std::string
-MakeOneWord(std::string text)
+std::optional<unsigned int>
+ParseNumber(const std::string & text)
 {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
-PieceAgreement
-ReadAgreement(const fs::path & folder)
-{
-  PieceAgreement agreement;
-  std::ifstream  file(folder / AgreementName);
-  for (std::string line; std::getline(file, line);)
-  {
-    const auto separator = line.find(": ");
-    if (separator != std::string::npos)
-    {
-      agreement.emplace_back(line.substr(0, separator), line.substr(separator + 2));
-    }
-  }
-  return agreement;
-}
-
-std::string
-Find(const PieceAgreement & agreement, const std::string & key)
-{
-  const auto found = std::find_if(agreement.begin(), agreement.end(), [&](const auto & e) { return e.first == key; });
-  return found == agreement.end() ? "" : found->second;
+  std::istringstream stream(text);
+  unsigned int       number = 0;
+  return stream >> number ? std::optional<unsigned int>(number) : std::nullopt;
 }
 
 /** Writes a small file that is there whole or not at all. \return 0, or the error */
@@ -125,10 +105,13 @@ PieceFolder::Fail(const std::string & reason) const
 std::optional<unsigned int>
 PieceFolder::FindNumberOfPieces(const fs::path & output)
 {
-  const std::string  text = Find(ReadAgreement(GetFolder(output)), PiecesKey);
-  std::istringstream stream(text);
-  unsigned int       number = 0;
-  return stream >> number ? std::optional<unsigned int>(number) : std::nullopt;
+  return ParseNumber(Find(ReadAgreement(GetFolder(output) / AgreementName), PiecesKey));
+}
+
+std::optional<unsigned int>
+PieceFolder::FindNumberOfCompletePieces(const fs::path & output)
+{
+  return ParseNumber(Find(ParseAgreement(ReadMark(output)), PiecesKey));
 }
 
 bool
@@ -139,7 +122,7 @@ PieceFolder::TryToJoin(const PieceAgreement & agreement)
   {
     return false;
   }
-  const PieceAgreement theirs = ReadAgreement(m_Folder);
+  const PieceAgreement theirs = ReadAgreement(m_Folder / AgreementName);
   m_Identity = Find(theirs, IdentityKey);
   for (const auto & [key, value] : agreement)
   {
@@ -171,12 +154,8 @@ PieceFolder::Begin(const PieceAgreement & agreement, const PieceWriter & writer)
     fs::create_directory(m_Temporary / name);
   }
   writer.LayOut(m_Temporary / "output");
-  std::string text;
-  for (const auto & [key, value] : agreement)
-  {
-    text += key + ": " + MakeOneWord(value) + "\n";
-  }
-  text += IdentityKey + (": " + GetIdentity(m_Temporary / "output" / m_Output.filename())) + "\n";
+  const std::string text =
+    Compose(agreement) + IdentityKey + (": " + GetIdentity(m_Temporary / "output" / m_Output.filename())) + "\n";
   const int error = WriteAtOnce(m_Temporary / "unnamed", m_Temporary / AgreementName, text);
   if (error != 0)
   {
@@ -193,7 +172,7 @@ PieceFolder::Begin(const PieceAgreement & agreement, const PieceWriter & writer)
   m_Temporary.clear();
 }
 
-void
+bool
 PieceFolder::Join(const PieceAgreement & agreement, const PieceWriter & writer)
 {
   constexpr int most = 10; // others may come and go in between
@@ -201,7 +180,11 @@ PieceFolder::Join(const PieceAgreement & agreement, const PieceWriter & writer)
   {
     if (this->TryToJoin(agreement))
     {
-      return;
+      return true;
+    }
+    if (ReadMark(m_Output) == Compose(agreement))
+    {
+      return false;
     }
     this->Begin(agreement, writer);
   }
@@ -230,9 +213,20 @@ PieceFolder::MakeTemporaryFolder()
 std::optional<std::uint32_t>
 PieceFolder::FindNote(const unsigned int piece) const
 {
-  std::ifstream file(m_Folder / "notes" / std::to_string(piece));
-  std::uint32_t checksum = 0;
-  return file >> checksum ? std::optional<std::uint32_t>(checksum) : std::nullopt;
+  const fs::path  path = m_Folder / "notes" / std::to_string(piece);
+  std::ifstream   file(path);
+  std::uint32_t   checksum = 0;
+  std::error_code error;
+  if (file >> checksum)
+  {
+    return checksum;
+  }
+  if (fs::exists(path, error))
+  {
+    this->Fail("it is not known whether piece " + std::to_string(piece) + " is done: " + path.string() +
+               " cannot be read");
+  }
+  return std::nullopt;
 }
 
 void
@@ -269,7 +263,7 @@ PieceFolder::IsFinished() const
 bool
 PieceFolder::IsFinishedByAnother() const
 {
-  static_cast<void>(flock(m_Agreement, LOCK_EX)); // see Finish()
+  const FinishLock lock(m_Agreement, m_Folder);
   return this->IsFinished();
 }
 
@@ -280,27 +274,13 @@ PieceFolder::Finish(const PieceWriter & writer)
   {
     return this->IsFinished();
   }
-  // The lock goes with the process. Where the file system has none, two that finish at the same time do the same.
-  static_cast<void>(flock(m_Agreement, LOCK_EX));
-  struct stat joined = {};
+  const FinishLock alone(m_Agreement, m_Folder);
+  struct stat      joined = {};
   fstat(m_Agreement, &joined);
   const bool isStillThere = GetIdentity(m_Folder / AgreementName) == std::to_string(joined.st_ino);
   if (isStillThere && !this->IsFinished())
   {
-    if (GetIdentity(this->GetOutputFolder() / m_Output.filename()) != m_Identity)
-    {
-      this->Fail("its pieces were all done, but it has been replaced or removed since; to begin anew, remove " +
-                 m_Folder.string());
-    }
-    writer.CheckAll(this->GetOutputFolder());
-    const std::optional<fs::path> oldData = writer.FindOldData();
-    const auto                    lock = HoldInterrupts();
-    this->GiveNames();
-    if (oldData)
-    {
-      std::error_code ignored;
-      fs::remove(*oldData, ignored);
-    }
+    this->Complete(writer);
   }
   if (!this->IsFinished())
   {
@@ -313,42 +293,59 @@ PieceFolder::Finish(const PieceWriter & writer)
   return true;
 }
 
-/** The named output goes last: it must not refer to files that are not there yet. */
 void
-PieceFolder::GiveNames() const
+PieceFolder::Complete(const PieceWriter & writer) const
 {
-  const auto give = [this](const fs::path & from) {
-    const fs::path to = m_Output.parent_path() / from.filename();
-    struct stat    old = {};
-    const bool     replaces = stat(to.c_str(), &old) == 0;
-    if (replaces)
+  const fs::path written = this->GetOutputFolder() / m_Output.filename();
+  if (GetIdentity(written) != m_Identity)
+  {
+    this->Fail("its pieces were all done, but it has been replaced or removed since; to begin anew, remove " +
+               m_Folder.string());
+  }
+  writer.CheckAll(this->GetOutputFolder());
+  PieceAgreement agreement = ReadAgreement(m_Folder / AgreementName);
+  agreement.pop_back(); // the identity
+  MarkAsComplete(written, Compose(agreement));
+  const std::optional<fs::path> oldData = writer.FindOldData();
+  const auto                    lock = HoldInterrupts();
+  this->GiveNames(writer);
+  if (oldData)
+  {
+    std::error_code ignored;
+    fs::remove(*oldData, ignored);
+  }
+}
+
+void
+PieceFolder::GiveNames(const PieceWriter & writer) const
+{
+  const fs::path folder = this->GetOutputFolder();
+  for (const fs::directory_entry & entry : fs::directory_iterator(folder))
+  {
+    struct stat old = {};
+    if (stat((m_Output.parent_path() / entry.path().filename()).c_str(), &old) == 0)
     {
-      chmod(from.c_str(), old.st_mode & 07777);
+      chmod(entry.path().c_str(), old.st_mode & 07777);
     }
-    int error = BringToDisk(from);
-    if (error == 0 && replaces && S_ISDIR(old.st_mode))
-    {
-      error = ExchangeNames(from, to);
-    }
-    else if (error == 0)
-    {
-      error = rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
-    }
-    if (error != 0)
+    if (const int error = BringToDisk(entry.path()); error != 0)
     {
       this->Fail(std::strerror(error));
     }
-  };
-  std::vector<fs::path> others;
-  for (const fs::directory_entry & entry : fs::directory_iterator(this->GetOutputFolder()))
-  {
-    if (entry.path().filename() != m_Output.filename())
-    {
-      others.push_back(entry.path());
-    }
   }
-  std::for_each(others.begin(), others.end(), give);
-  give(this->GetOutputFolder() / m_Output.filename());
+  if (const auto pair = writer.FindPair(folder))
+  {
+    ::GiveNames(*pair);
+    return;
+  }
+  std::error_code unknown;
+  const fs::path  from = folder / m_Output.filename();
+  const int       error = fs::is_directory(m_Output, unknown)           ? ExchangeNames(from, m_Output)
+                          : rename(from.c_str(), m_Output.c_str()) == 0 ? 0
+                                                                        : errno;
+  if (error != 0)
+  {
+    this->Fail(std::strerror(error));
+  }
   BringToDisk(m_Output.parent_path());
 }
 
@@ -356,12 +353,19 @@ PieceFolder::GiveNames() const
 void
 PieceFolder::Remove() const
 {
-  const fs::path going = MakeUniqueFolder(m_Folder.string() + ".");
-  const auto     lock = HoldInterrupts();
-  if (!going.empty() && rename(m_Folder.c_str(), going.c_str()) == 0)
-  {
-    RemoveWhenInterrupted(lock, going, {});
-  }
+  fs::path        going = MakeUniqueFolder(m_Folder.string() + ".");
+  const auto      lock = HoldInterrupts();
   std::error_code error;
+  if (going.empty()) // the disk is full, perhaps
+  {
+    fs::remove(m_Folder / AgreementName, error);
+    going = m_Folder;
+  }
+  else
+  {
+    rename(m_Folder.c_str(), going.c_str());
+  }
+  RemoveWhenInterrupted(lock, going, {});
   fs::remove_all(going, error);
+  RemoveWhenInterrupted(lock, {}, {});
 }

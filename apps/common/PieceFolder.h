@@ -2,17 +2,14 @@
 #ifndef PieceFolder_h
 #define PieceFolder_h
 
+#include "AgreementText.h"
 #include "PieceWriter.h"
 
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
-
-/** What all pieces of an output must agree on, in words and in the order of messages: "scheme", "linear". */
-using PieceAgreement = std::vector<std::pair<std::string, std::string>>;
 
 /** The folder .NAME.pieces beside an output, which the processes share that make its pieces: the output as it grows,
  * the agreement, and a note for each piece that is done. It is gone when the output has its name. */
@@ -30,9 +27,14 @@ public:
   static std::optional<unsigned int>
   FindNumberOfPieces(const std::filesystem::path & output);
 
+  /** The number of pieces that an output was made of, if it is known and nothing has changed it since. */
+  static std::optional<unsigned int>
+  FindNumberOfCompletePieces(const std::filesystem::path & output);
+
   /** Joins what others have begun, or begins it.
+   * \return false if there is nothing to do, since the output was made so before
    * \throw std::runtime_error that names the difference, if others have agreed on something else */
-  void
+  bool
   Join(const PieceAgreement & agreement, const PieceWriter & writer);
 
   /** Where the output grows. */
@@ -74,7 +76,9 @@ private:
   void
   Begin(const PieceAgreement & agreement, const PieceWriter & writer);
   void
-  GiveNames() const;
+  Complete(const PieceWriter & writer) const;
+  void
+  GiveNames(const PieceWriter & writer) const;
   void
   Remove() const;
   [[noreturn]] void

@@ -2,6 +2,7 @@
 #ifndef PieceWriter_h
 #define PieceWriter_h
 
+#include "PairNaming.h"
 #include "VolumeWriter.h"
 
 #include "NonOscillatorySubdivision/ArrayView.h"
@@ -46,6 +47,10 @@ public:
    * \throw std::runtime_error */
   virtual void
   CheckAll(const std::filesystem::path & folder) const = 0;
+
+  /** The header and its data file, as the folder has them, if the output is such a pair. */
+  virtual std::optional<DetachedPair>
+  FindPair(const std::filesystem::path & folder) const = 0;
 
   /** A file beside the output that belongs to the one that is replaced, and goes with it. */
   virtual std::optional<std::filesystem::path>

@@ -7,6 +7,7 @@
 #include "NrrdHeader.h"
 
 #include <algorithm>
+#include <random>
 #include <stdexcept>
 
 namespace fs = std::filesystem;
@@ -45,7 +46,54 @@ GetDataName(const fs::path & output, const bool isCompressed)
   }
   return stem + ending;
 }
+
+/** The parts of a data file's name between which an interim one has six letters and digits. */
+std::pair<std::string, std::string>
+SplitDataName(const std::string & dataName)
+{
+  constexpr std::size_t longest = 255;
+  constexpr const char  mark[] = ".new-";
+  for (const std::string ending : { ".raw.gz", ".zraw", ".raw" })
+  {
+    if (dataName.size() > ending.size() &&
+        dataName.compare(dataName.size() - ending.size(), ending.size(), ending) == 0)
+    {
+      const std::size_t room = longest - sizeof(mark) + 1 - 6 - ending.size();
+      return { dataName.substr(0, std::min(dataName.size() - ending.size(), room)) + mark, ending };
+    }
+  }
+  return { dataName + mark, "" };
+}
+
+bool
+IsInterimDataName(const std::string & name, const std::string & dataName)
+{
+  const auto [start, ending] = SplitDataName(dataName);
+  return name.size() == start.size() + 6 + ending.size() && name.compare(0, start.size(), start) == 0 &&
+         name.compare(name.size() - ending.size(), ending.size(), ending) == 0 &&
+         name.find('/', start.size()) == std::string::npos;
+}
 } // namespace
+
+std::string
+MakeInterimDataName(const fs::path & folder, const std::string & dataName)
+{
+  constexpr char     characters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+  std::random_device random;
+  const auto [start, ending] = SplitDataName(dataName);
+  std::string     name;
+  std::error_code error;
+  do
+  {
+    name = start;
+    for (int i = 0; i < 6; ++i)
+    {
+      name += characters[random() % (sizeof(characters) - 1)];
+    }
+    name += ending;
+  } while (fs::exists(fs::symlink_status(folder / name, error)));
+  return name;
+}
 
 bool
 IsPlainFormat(const fs::path & output)
@@ -55,13 +103,16 @@ IsPlainFormat(const fs::path & output)
 }
 
 PlainHeader
-ComposePlainHeader(const fs::path & output, const ImageDescription & description, const OutputOptions & options)
+ComposePlainHeader(const fs::path &         output,
+                   const ImageDescription & description,
+                   const OutputOptions &    options,
+                   const std::string &      dataName)
 {
   PlainHeader       header;
   const std::string ending = ToLower(output.extension().string());
   header.IsNrrd = IsNrrd(output);
   header.IsDetached = ending == ".mhd" || ending == ".nhdr";
-  header.DataName = header.IsDetached ? GetDataName(output, options.Compress) : "";
+  header.DataName = !header.IsDetached ? "" : dataName.empty() ? GetDataName(output, options.Compress) : dataName;
   const auto style = header.IsNrrd ? MetadataStyle::Nrrd : MetadataStyle::MetaImage;
   const auto metadata = SelectMetadata(description, style, options.KeepMetadata);
   // A name that starts with LIST would mean a list of names.
@@ -81,7 +132,9 @@ CheckDataFile(const fs::path & output, const std::string & dataName)
   {
     return;
   }
-  const bool isOwn = ReadDataName(output) == dataName;
+  const std::string named = ReadDataName(output);
+  // A run that was killed may have left the header with an interim name, beside the data that it replaced.
+  const bool isOwn = named == dataName || IsInterimDataName(named, dataName);
   const auto other = isOwn ? FindOtherOwner(data, output) : std::nullopt;
   if (!isOwn || other)
   {
@@ -94,10 +147,13 @@ CheckDataFile(const fs::path & output, const std::string & dataName)
 std::optional<fs::path>
 FindOldDataFile(const fs::path & output, const bool isCompressed)
 {
-  const fs::path  data = output.parent_path() / GetDataName(output, !isCompressed);
+  const std::string named = ReadDataName(output);
+  const std::string other = GetDataName(output, !isCompressed);
+  const bool        isOwn =
+    named == other || IsInterimDataName(named, other) || IsInterimDataName(named, GetDataName(output, isCompressed));
+  const fs::path  data = output.parent_path() / named;
   std::error_code error;
-  const bool      isOld = ReadDataName(output) == data.filename().string() &&
-                     fs::is_regular_file(fs::symlink_status(data, error)) && !FindOtherOwner(data, output);
+  const bool isOld = isOwn && fs::is_regular_file(fs::symlink_status(data, error)) && !FindOtherOwner(data, output);
   return isOld ? std::optional<fs::path>(data) : std::nullopt;
 }
 

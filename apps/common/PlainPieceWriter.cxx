@@ -136,6 +136,16 @@ public:
     this->CheckDataFile();
   }
 
+  std::optional<DetachedPair>
+  FindPair(const fs::path & folder) const override
+  {
+    const auto compose = [this](const std::string & dataName) {
+      return ComposePlainHeader(m_Output, m_Description, m_Options, dataName).Text;
+    };
+    return m_Header.IsDetached ? std::optional<DetachedPair>({ folder, m_Output, m_Header.DataName, compose })
+                               : std::nullopt;
+  }
+
   std::optional<fs::path>
   FindOldData() const override
   {

@@ -92,6 +92,17 @@ PlainWriter::Write(const itk::Subdivision::Box & box, const void * voxels)
   });
 }
 
+std::string
+PlainWriter::ComposeHeader(const std::string & dataName) const
+{
+  PlainHeader header = ComposePlainHeader(m_Folder->GetFileName(), m_Description, m_Options, dataName);
+  if (m_Deflate != nullptr && !header.IsNrrd)
+  {
+    FillInCompressedSize(header.Text, m_CompressedBytes);
+  }
+  return header.Text;
+}
+
 void
 PlainWriter::Commit()
 {
@@ -102,11 +113,8 @@ PlainWriter::Commit()
   if (m_Deflate != nullptr)
   {
     m_Deflate->Finish();
-    if (!m_Header.IsNrrd)
-    {
-      FillInCompressedSize(m_Header.Text, m_CompressedBytes);
-    }
   }
+  m_Header.Text = this->ComposeHeader(m_Header.DataName);
   m_HeaderFile->WriteAt(0, m_Header.Text.data(), m_Header.Text.size());
   m_HeaderFile.reset();
   m_DataFile.reset();
@@ -118,6 +126,7 @@ PlainWriter::Commit()
     {
       m_Folder->RemoveAfterwards(old->filename().string());
     }
+    m_Folder->NameDataBy(m_Header.DataName, [this](const std::string & name) { return this->ComposeHeader(name); });
   }
   m_Folder->Commit();
 }

@@ -36,6 +36,10 @@ public:
   Commit() override;
 
 private:
+  /** What the header is in the end. */
+  std::string
+  ComposeHeader(const std::string & dataName) const;
+
   std::string                      m_Path;
   OutputOptions                    m_Options;
   WarningSink                      m_Warn;

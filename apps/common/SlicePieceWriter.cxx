@@ -135,6 +135,12 @@ public:
     CheckOldSlices(m_Path, m_Output); // other programs may have written there meanwhile
   }
 
+  std::optional<DetachedPair>
+  FindPair(const fs::path &) const override
+  {
+    return std::nullopt;
+  }
+
   std::optional<fs::path>
   FindOldData() const override
   {

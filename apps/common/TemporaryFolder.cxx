@@ -99,6 +99,51 @@ IsStuck(const fs::path & file)
   return user != 0 && stat(file.c_str(), &own) == 0 && stat(file.parent_path().c_str(), &folder) == 0 &&
          (folder.st_mode & S_ISVTX) != 0 && own.st_uid != user && folder.st_uid != user;
 }
+
+/** Renames files of one image, the last of which names them all. Where it replaces one, the others of that go first, so
+ * that files of two images never stand together. After an error, all is as it was. */
+void
+ReplaceTogether(const fs::path & folder, const fs::path & target, std::vector<fs::path> names)
+{
+  const fs::path aside = folder / "replaced";
+  fs::create_directory(aside);
+  const auto exists = [](const fs::path & path) { return fs::exists(fs::symlink_status(path)); };
+  try
+  {
+    if (exists(target / names.back()))
+    {
+      std::rotate(names.begin(), names.end() - 1, names.end());
+      for (auto name = names.begin() + 1; name != names.end(); ++name)
+      {
+        if (exists(target / *name))
+        {
+          fs::rename(target / *name, aside / *name);
+        }
+      }
+      if (link((target / names.front()).c_str(), (aside / names.front()).c_str()) != 0)
+      {
+        fs::rename(target / names.front(), aside / names.front()); // the file system has no hard links
+      }
+    }
+    for (const fs::path & name : names)
+    {
+      fs::rename(folder / name, target / name);
+    }
+  }
+  catch (const fs::filesystem_error &)
+  {
+    std::error_code ignored;
+    for (auto name = names.rbegin(); name != names.rend(); ++name)
+    {
+      if (!fs::exists(folder / *name, ignored))
+      {
+        fs::remove(target / *name, ignored);
+      }
+      fs::rename(aside / *name, target / *name, ignored);
+    }
+    throw;
+  }
+}
 } // namespace
 
 fs::path
@@ -241,6 +286,47 @@ TemporaryFolder::RemoveAfterwards(const std::string & name)
 }
 
 void
+TemporaryFolder::NameDataBy(const std::string &                                     dataName,
+                            const std::function<std::string(const std::string &)> & composeHeader)
+{
+  m_Pair = DetachedPair{ m_Folder, m_Output, dataName, composeHeader };
+}
+
+void
+TemporaryFolder::GiveNames(const std::vector<fs::path> & names)
+{
+  const fs::path target = m_Output.parent_path();
+  if (m_IsInPlace)
+  {
+    for (const fs::path & name : names)
+    {
+      CopyOver(m_Folder / name, target / name);
+    }
+    return;
+  }
+  if (m_Pair)
+  {
+    ::GiveNames(*m_Pair);
+    return;
+  }
+  try
+  {
+    if (names.size() > 1)
+    {
+      ReplaceTogether(m_Folder, target, names);
+    }
+    else
+    {
+      fs::rename(m_Folder / names.front(), target / names.front());
+    }
+  }
+  catch (const fs::filesystem_error & error)
+  {
+    Fail(m_Output, error.code().value());
+  }
+}
+
+void
 TemporaryFolder::Commit()
 {
   std::vector<fs::path> names;
@@ -263,17 +349,7 @@ TemporaryFolder::Commit()
     KeepPermissions(target / name, m_Folder / name);
   }
   const auto lock = HoldInterrupts();
-  for (const fs::path & name : names)
-  {
-    if (m_IsInPlace)
-    {
-      CopyOver(m_Folder / name, target / name);
-    }
-    else if (rename((m_Folder / name).c_str(), (target / name).c_str()) != 0)
-    {
-      Fail(target / name, errno);
-    }
-  }
+  this->GiveNames(names);
   for (const std::string & name : m_Obsolete)
   {
     std::error_code error; // the output is complete all the same

@@ -4,10 +4,13 @@
 
 #include "ImageDescription.h"
 #include "Interrupt.h"
+#include "PairNaming.h"
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 /** The file that a name leads to, whether it exists or not: a symbolic link is to stay one.
  * \throw std::runtime_error if it is a link to itself */
@@ -59,7 +62,13 @@ public:
   void
   RemoveAfterwards(const std::string & name);
 
-  /** Brings all files to the disk and renames them, the named output last.
+  /** Tells Commit() that the output is a header which names the voxels' file beside it, and how to compose it. */
+  void
+  NameDataBy(const std::string & dataName, const std::function<std::string(const std::string &)> & composeHeader);
+
+  /** Brings all files to the disk and renames them, the named output last, so that no moment lies between at which the
+   * old one stands beside another's files. Files whose names alone make them one image, as .hdr and .img, lack the
+   * named one meanwhile.
    * \throw std::runtime_error if the disk is full or another file stands in the way */
   void
   Commit();
@@ -69,13 +78,16 @@ private:
   bool
   Make(const std::filesystem::path & folder);
   void
+  GiveNames(const std::vector<std::filesystem::path> & names);
+  void
   Remove(const InterruptLock & lock);
 
-  std::filesystem::path m_Output;
-  std::filesystem::path m_Folder;
-  bool                  m_IsInPlace = false;
-  std::set<std::string> m_Replaceable;
-  std::set<std::string> m_Obsolete;
+  std::filesystem::path       m_Output;
+  std::filesystem::path       m_Folder;
+  bool                        m_IsInPlace = false;
+  std::set<std::string>       m_Replaceable;
+  std::set<std::string>       m_Obsolete;
+  std::optional<DetachedPair> m_Pair;
 };
 
 #endif

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef FileState_h
+#define FileState_h
+
+#include <filesystem>
+#include <string>
+
+/** The number, bytes and latest time of the files of an image, in words that differ when one of them is changed: all of
+ * a folder but hidden ones, or one file with the data files that may be beside it. */
+std::string
+DescribeFiles(const std::filesystem::path & image);
+
+/** \throw std::runtime_error if the files of an image are not as they were described */
+void
+CheckFiles(const std::filesystem::path & image, const std::string & description);
+
+#endif

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs, on Debian 12, the packages that the given purposes need and this machine lacks:
-#   install_packages.sh build|sample|test|benchmark|experiments ...
+#   install_packages.sh build|sample|test|benchmark|clang|fuzz|machines|valgrind|experiments ...
 # What each purpose needs stands here and nowhere else, but for the experiments, which bring their own list.
 set -euo pipefail
 repository=$(cd "$(dirname "$0")/.." && pwd)
@@ -13,6 +13,11 @@ declare -A packages=(
   [sample]="invesalius-examples python3-matplotlib python3-numpy"
   [test]="castxml libgtest-dev python3 python3-dev python3-venv"
   [benchmark]="libbenchmark-dev python3"
+  [clang]="clang libclang-rt-14-dev"
+  [fuzz]="clang libclang-rt-14-dev libcli11-dev libgtest-dev libisal-dev libpugixml-dev zlib1g-dev"
+  [machines]="clang g++-aarch64-linux-gnu g++-arm-linux-gnueabihf g++-mingw-w64-x86-64-posix g++-powerpc64le-linux-gnu
+    g++-riscv64-linux-gnu g++-s390x-linux-gnu libc++-dev libc++abi-dev qemu-user-static wine wine64"
+  [valgrind]="libgtest-dev valgrind"
   [experiments]="$(tr '\n' ' ' < "$repository/experiments/debian-packages.txt")"
 )
 

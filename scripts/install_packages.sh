@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs, on Debian 12, the packages that the given purposes need and this machine lacks:
-#   install_packages.sh build|sample|test|benchmark|coverage|wrapping|experiments ...
+#   install_packages.sh build|sample|test|benchmark|clang|coverage|fuzz|machines|valgrind|wrapping|experiments ...
 # What each purpose needs stands here and nowhere else, but for the experiments, which bring their own list.
 set -euo pipefail
 repository=$(cd "$(dirname "$0")/.." && pwd)
@@ -15,6 +15,11 @@ declare -A packages=(
   [benchmark]="libbenchmark-dev python3"
   [coverage]="gcovr"
   [wrapping]="castxml git libtbb-dev"
+  [clang]="clang libclang-rt-14-dev"
+  [fuzz]="clang libclang-rt-14-dev libcli11-dev libgtest-dev libisal-dev libpugixml-dev zlib1g-dev"
+  [machines]="clang g++-aarch64-linux-gnu g++-arm-linux-gnueabihf g++-mingw-w64-x86-64-posix g++-powerpc64le-linux-gnu
+    g++-riscv64-linux-gnu g++-s390x-linux-gnu libc++-dev libc++abi-dev qemu-user-static wine wine64"
+  [valgrind]="libgtest-dev valgrind"
   [experiments]="$(tr '\n' ' ' < "$repository/experiments/debian-packages.txt")"
 )
 

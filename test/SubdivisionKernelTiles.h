@@ -57,7 +57,7 @@ struct TestTile : RowSource<T>
     }
     for (long x = 0; x < Values.size[0]; ++x)
     {
-      values[x] = static_cast<T>(Values({ Values.lower[0] + x, y, z }));
+      values[x] = static_cast<T>(Values({ Values.lower[0] + x, static_cast<long>(y), static_cast<long>(z) }));
     }
   }
 

@@ -17,6 +17,9 @@ STAGES = KERNEL + "stages/"
 VECTORS = KERNEL + "vectors/"
 # What every stage builds on; all other files of the folder are stages.
 STAGE_TOOLS = [STAGES + name for name in ("Ring.h", "Masks-inl.h", "Rows-inl.h")]
+# Headers of POSIX, which other systems lack. Huge pages are asked for where there are any.
+POSIX_HEADER = re.compile(r"(sys|arpa|netinet)/|(unistd|fcntl|dirent|dlfcn|poll|pthread|pwd|spawn|strings|termios)\.h$")
+HUGE_PAGES = "src/memory/HugePages.cxx"
 ENUM_PRINTING = "src/itkNonOscillatorySubdivisionImageFilterEnums.cxx"
 
 # For the files that a prefix names: prefixes of what they may include of the project, besides files of their own name.
@@ -79,6 +82,8 @@ def violations(root):
             found.append(f"{path} has {lines} lines, more than {MOST_LINES}")
         below_itk = path.startswith((API, "src/")) and path != ENUM_PRINTING
         for name in INCLUDE.findall(text):
+            if path.startswith(("include/", "src/")) and path != HUGE_PAGES and POSIX_HEADER.match(name):
+                found.append(f"{path} includes {name}, which only POSIX has")
             known = resolve(path, name, texts)
             if below_itk and ITK_HEADER.match(name.rpartition("/")[2]) or (below_itk and ITK_HEADER.match(name)):
                 found.append(f"{path} includes ITK's {name}")
@@ -151,6 +156,14 @@ class IncludeArrows(unittest.TestCase):
                  "src/memory/Layout.h": "", "src/array/Tiling.cxx": '#include "memory/Layout.h"\n',
                  "apps/One/One.cxx": '#include "Messages.h"\n#include "itkFilter.h"\n', "apps/common/Messages.h": ""}
         self.assertEqual([], self.violations_of(files))
+
+    def test_posix_headers_are_found(self):
+        found = self.violations_of({"src/memory/Layout.cxx": "#  include <sys/mman.h>\n",
+                                    HUGE_PAGES: "#include <sys/mman.h>\n",
+                                    "include/itkFilter.h": "#include <unistd.h>\n",
+                                    "apps/One/One.cxx": "#include <poll.h>\n"})
+        self.assertEqual(["include/itkFilter.h includes unistd.h, which only POSIX has",
+                          "src/memory/Layout.cxx includes sys/mman.h, which only POSIX has"], found)
 
     def test_long_files_are_found(self):
         found = self.violations_of({"src/array/Long.cxx": "\n" * 401, "include/itkShort.h": "\n" * 400})

@@ -75,6 +75,10 @@ public:
   std::uint64_t
   GetPlace(std::uint64_t slice, std::uint64_t channel, std::uint64_t frame) const
   {
+    if (slice >= m_Stack.Slices || channel >= m_Stack.Channels || frame >= m_Stack.Frames)
+    {
+      throw std::runtime_error("its OME description is damaged: it begins with a plane that is not in the stack");
+    }
     return slice * m_SliceStep + channel * m_ChannelStep + frame * m_FrameStep;
   }
 
@@ -182,14 +186,11 @@ ParseOme(const std::string & text, std::uint64_t pages)
   stack.Spacing = { GetSpacing(pixels, "X"), GetSpacing(pixels, "Y"), GetSpacing(pixels, "Z") };
   stack.IsInMillimetres = true;
 
-  const auto data = GetChildren(pixels, "TiffData");
-  if (stack.Slices * stack.Frames * stack.Channels > 10000000)
-  {
-    throw std::runtime_error("its OME description is damaged: too many planes");
-  }
+  const auto          data = GetChildren(pixels, "TiffData");
+  const std::uint64_t planes = CountPlanes(stack);
   CheckFiles(data);
   const PlaneOrder order(stack, pixels.attribute("DimensionOrder").value());
-  stack.Planes.assign(stack.Slices * stack.Frames * stack.Channels, Nowhere);
+  stack.Planes.assign(planes, Nowhere);
   for (const pugi::xml_node & part : data)
   {
     PlacePlanes(stack, part, order, pages);

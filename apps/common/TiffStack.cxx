@@ -75,6 +75,19 @@ GetMillimetres(const std::string & unit)
   return found == units.end() ? std::nullopt : std::optional<double>(found->second);
 }
 
+std::uint64_t
+CountPlanes(const TiffStack & stack)
+{
+  // In real numbers, since whole numbers overflow silently.
+  const double planes =
+    static_cast<double>(stack.Slices) * static_cast<double>(stack.Channels) * static_cast<double>(stack.Frames);
+  if (planes > 1e7)
+  {
+    throw std::runtime_error("its description is damaged: it has too many planes");
+  }
+  return stack.Slices * stack.Channels * stack.Frames;
+}
+
 std::optional<TiffStack>
 ParseImageJ(const std::string & text)
 {
@@ -93,7 +106,7 @@ ParseImageJ(const std::string & text)
   {
     stack.Slices = images;
   }
-  if (stack.Channels * stack.Frames * stack.Slices != images)
+  if (CountPlanes(stack) != images)
   {
     throw std::runtime_error("its ImageJ description is damaged: " + std::to_string(images) + " images are not " +
                              std::to_string(stack.Channels) + " channels x " + std::to_string(stack.Slices) +

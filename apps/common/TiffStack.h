@@ -26,8 +26,12 @@ struct TiffStack
 std::optional<double>
 GetMillimetres(const std::string & unit);
 
-/** What a text says of the stack if it is ImageJ's.
- * \throw std::runtime_error with a reason alone, here and below */
+/** The number of a stack's planes, each of which is a page of the file.
+ * \throw std::runtime_error with a reason alone, here and below, if there are more than any file has */
+std::uint64_t
+CountPlanes(const TiffStack & stack);
+
+/** What a text says of the stack if it is ImageJ's. */
 std::optional<TiffStack>
 ParseImageJ(const std::string & text);
 

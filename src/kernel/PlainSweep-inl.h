@@ -77,7 +77,7 @@ private:
   {
     const auto scale = Broadcast<T>(ScaleOfChildren);
     ForEachVectorOfChildren<T, VX>(
-      this->m_Shape.Width, [=](const std::ptrdiff_t child, const std::ptrdiff_t x) SUBDIVISION_ATTRIBUTE {
+      this->m_Shape.Width, [=, &scale](const std::ptrdiff_t child, const std::ptrdiff_t x) SUBDIVISION_ATTRIBUTE {
         const auto value = Load(children + child);
         const auto bounded = OrderedMin(OrderedMax(value, Load(lows + x)), Load(highs + x));
         Store(Mul(scale, IfFinite(value, bounded)), children + child);

@@ -98,19 +98,21 @@ private:
     T * const previousBoth = m_PreviousBothPart;
     for (std::ptrdiff_t x = FirstVector<T>(reach); x < width + reach; x += LaneCount<T>())
     {
-      DifferenceParts<Vector<T>> parts;
-      SumDifferences<VX, VY>(row, nextRow, x, parts);
+      Vector<T> partX;
+      Vector<T> partY;
+      Vector<T> partBoth;
+      SumDifferences<VX, VY>(row, nextRow, x, partX, partY, partBoth);
       if constexpr (VX)
       {
-        Store(ToOrderedBits(parts.X), xVariation + x);
+        Store(ToOrderedBits(partX), xVariation + x);
       }
       if constexpr (VY)
       {
-        Store(ToOrderedBits(AddPrevious(parts.Y, previousY + x)), yVariation + x);
+        Store(ToOrderedBits(AddPrevious(partY, previousY + x)), yVariation + x);
       }
       if constexpr (VX && VY)
       {
-        Store(ToOrderedBits(AddPrevious(parts.Both, previousBoth + x)), bothVariation + x);
+        Store(ToOrderedBits(AddPrevious(partBoth, previousBoth + x)), bothVariation + x);
       }
     }
   }

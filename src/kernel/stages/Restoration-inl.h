@@ -79,7 +79,7 @@ public:
     T * const            limit = m_LimitOfRow[i];
     const auto           factor = Broadcast<T>(4 * tension);
     // In this order nothing overflows before T itself does.
-    const auto use = [=](const std::ptrdiff_t x, const auto least, const auto greatest) SUBDIVISION_ATTRIBUTE {
+    const auto use = [=, &factor](const std::ptrdiff_t x, const auto least, const auto greatest) SUBDIVISION_ATTRIBUTE {
       Store(ZeroUnlessDivisible(Mul(factor, Mul(least, Div(least, greatest))), greatest), limit + x);
     };
     if (hasZ)
@@ -129,7 +129,7 @@ private:
     for (std::ptrdiff_t x = FirstVector<T>(reach); x < shape.Width + reach; x += LaneCount<T>())
     {
       const auto value = KeepInRegister(Load(row + x));
-      const auto differ = [=](const T * const one, const T * const other) SUBDIVISION_ATTRIBUTE {
+      const auto differ = [=, &value](const T * const one, const T * const other) SUBDIVISION_ATTRIBUTE {
         return Add(Magnitude(Sub(value, Load(one + x))), Magnitude(Sub(Load(other + x), value)));
       };
       auto sum = VX ? differ(row - 1, row + 1) : differ(before, after);

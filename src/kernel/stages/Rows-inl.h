@@ -230,7 +230,7 @@ ScaleRow(const double factor, const std::ptrdiff_t reach, const std::ptrdiff_t w
 {
   const auto by = Broadcast<T>(factor);
   ForEachVectorInRow<T>(
-    reach, width, [=](const std::ptrdiff_t x) SUBDIVISION_ATTRIBUTE { Store(Mul(by, Load(row + x)), row + x); });
+    reach, width, [=, &by](const std::ptrdiff_t x) SUBDIVISION_ATTRIBUTE { Store(Mul(by, Load(row + x)), row + x); });
 }
 
 /** Entries of a ring around one of them: rows of a plane, or rows of planes that lie \c offset values into these. */
@@ -333,37 +333,36 @@ private:
   std::ptrdiff_t m_Pitch;
 };
 
-/** The parts that a row and the one after it have in the variations of the row's voxels, by subset. */
-template <typename TVector>
-struct DifferenceParts
-{
-  TVector X;
-  TVector Y;
-  TVector Both;
-};
-
+/** The parts that a row and the one after it have in the variations of the row's voxels, for each subset of the axes.
+ * They are no struct, and closures have vectors by reference: those whose length is known only when they run (SVE) can
+ * be no members. */
 template <bool VX, bool VY, typename T, typename TVector>
 SUBDIVISION_INLINE void
-SumDifferences(const T * const row, const T * const nextRow, const std::ptrdiff_t x, DifferenceParts<TVector> & parts)
+SumDifferences(const T * const      row,
+               const T * const      nextRow,
+               const std::ptrdiff_t x,
+               TVector &            partX,
+               TVector &            partY,
+               TVector &            partBoth)
 {
   const auto value = KeepInRegister(Load(row + x));
   if constexpr (VX)
   {
     const auto before = KeepInRegister(Load(row + x - 1));
     const auto after = KeepInRegister(Load(row + x + 1));
-    parts.X = Add(Magnitude(Sub(value, before)), Magnitude(Sub(after, value)));
+    partX = Add(Magnitude(Sub(value, before)), Magnitude(Sub(after, value)));
     if constexpr (VY)
     {
       const auto difference = Sub(Load(nextRow + x), value);
       const auto differenceBefore = Sub(Load(nextRow + x - 1), before);
       const auto differenceAfter = Sub(Load(nextRow + x + 1), after);
-      parts.Y = Magnitude(difference);
-      parts.Both = Add(Magnitude(Sub(difference, differenceBefore)), Magnitude(Sub(differenceAfter, difference)));
+      partY = Magnitude(difference);
+      partBoth = Add(Magnitude(Sub(difference, differenceBefore)), Magnitude(Sub(differenceAfter, difference)));
     }
   }
   else if constexpr (VY)
   {
-    parts.Y = Magnitude(Sub(Load(nextRow + x), value));
+    partY = Magnitude(Sub(Load(nextRow + x), value));
   }
 }
 

@@ -49,7 +49,7 @@ public:
             hasZ,
             ValueRadius,
             m_Laplacian.FromAny(p - 1),
-            [=](const std::ptrdiff_t at, const auto llf) SUBDIVISION_ATTRIBUTE {
+            [=, &weight, &weightOfSquare](const std::ptrdiff_t at, const auto llf) SUBDIVISION_ATTRIBUTE {
               Store(MulAdd(weightOfSquare, llf, MulAdd(weight, Load(lf + at), Load(f + at))), sharpened + at);
             });
     return m_Sharpened;

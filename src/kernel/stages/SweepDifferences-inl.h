@@ -280,27 +280,31 @@ private:
     const RowPointers laterRows(m_Planes[1], r);
     for (std::ptrdiff_t x = FirstVector<T>(reach); x < shape.Width + reach; x += LaneCount<T>())
     {
-      DifferenceParts<Vector<T>> earlier;
-      DifferenceParts<Vector<T>> later;
-      SumDifferences<VX, VY>(earlierRow, earlierNext, x, earlier);
-      SumDifferences<VX, VY>(laterRow, laterNext, x, later);
+      Vector<T> earlierX;
+      Vector<T> earlierY;
+      Vector<T> earlierBoth;
+      Vector<T> laterX;
+      Vector<T> laterY;
+      Vector<T> laterBoth;
+      SumDifferences<VX, VY>(earlierRow, earlierNext, x, earlierX, earlierY, earlierBoth);
+      SumDifferences<VX, VY>(laterRow, laterNext, x, laterX, laterY, laterBoth);
       if constexpr (VX)
       {
-        AddAlongZ(earlier.X, later.X, previousX + x);
-        Store(ToOrderedBits(earlier.X), earlierRows.X + x);
-        Store(ToOrderedBits(later.X), laterRows.X + x);
+        AddAlongZ(earlierX, laterX, previousX + x);
+        Store(ToOrderedBits(earlierX), earlierRows.X + x);
+        Store(ToOrderedBits(laterX), laterRows.X + x);
       }
       if constexpr (VY)
       {
-        AddAlongZ(earlier.Y, later.Y, previousY + x);
-        Store(ToOrderedBits(AddPrevious(earlier.Y, earlierRows.PreviousY + x)), earlierRows.Y + x);
-        Store(ToOrderedBits(AddPrevious(later.Y, laterRows.PreviousY + x)), laterRows.Y + x);
+        AddAlongZ(earlierY, laterY, previousY + x);
+        Store(ToOrderedBits(AddPrevious(earlierY, earlierRows.PreviousY + x)), earlierRows.Y + x);
+        Store(ToOrderedBits(AddPrevious(laterY, laterRows.PreviousY + x)), laterRows.Y + x);
       }
       if constexpr (VX && VY)
       {
-        AddAlongZ(earlier.Both, later.Both, previousBoth + x);
-        Store(ToOrderedBits(AddPrevious(earlier.Both, earlierRows.PreviousBoth + x)), earlierRows.Both + x);
-        Store(ToOrderedBits(AddPrevious(later.Both, laterRows.PreviousBoth + x)), laterRows.Both + x);
+        AddAlongZ(earlierBoth, laterBoth, previousBoth + x);
+        Store(ToOrderedBits(AddPrevious(earlierBoth, earlierRows.PreviousBoth + x)), earlierRows.Both + x);
+        Store(ToOrderedBits(AddPrevious(laterBoth, laterRows.PreviousBoth + x)), laterRows.Both + x);
       }
     }
   }

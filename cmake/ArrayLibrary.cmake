@@ -1,0 +1,50 @@
+# The kernel and the array layer as a static library that needs no ITK: for the Python package, and for their tests on
+# machines without ITK.
+
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+find_package(Threads REQUIRED)
+option(
+  NonOscillatorySubdivision_USE_HIGHWAY
+  "Vectorise the kernel with Highway where it is installed; the portable kernel is built always."
+  ON
+)
+if(NonOscillatorySubdivision_USE_HIGHWAY)
+  find_package(hwy QUIET CONFIG)
+endif()
+
+include(GenerateExportHeader)
+
+get_filename_component(repository "${CMAKE_CURRENT_LIST_DIR}" DIRECTORY)
+file(GLOB sources CONFIGURE_DEPENDS
+  "${repository}/src/kernel/*.cxx" "${repository}/src/array/*.cxx" "${repository}/src/memory/*.cxx"
+)
+if(NOT hwy_FOUND)
+  list(FILTER sources EXCLUDE REGEX "/TargetsHighway\\.cxx$")
+endif()
+add_library(NonOscillatorySubdivision STATIC ${sources})
+# As in src/CMakeLists.txt: results must not depend on where a compiler fuses a multiplication with an addition.
+set_source_files_properties("${repository}/src/kernel/TargetPortable.cxx" PROPERTIES
+  COMPILE_OPTIONS "$<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off;$<$<NOT:$<CONFIG:Debug>>:-O3>>"
+)
+generate_export_header(NonOscillatorySubdivision
+  EXPORT_MACRO_NAME NonOscillatorySubdivision_EXPORT
+  NO_EXPORT_MACRO_NAME NonOscillatorySubdivision_HIDDEN
+  EXPORT_FILE_NAME "${PROJECT_BINARY_DIR}/include/NonOscillatorySubdivisionExport.h"
+  STATIC_DEFINE NonOscillatorySubdivision_STATIC
+)
+target_compile_definitions(NonOscillatorySubdivision PUBLIC NonOscillatorySubdivision_STATIC)
+target_include_directories(NonOscillatorySubdivision
+  PUBLIC "${repository}/include" "${PROJECT_BINARY_DIR}/include"
+  PRIVATE "${repository}/src"
+)
+target_link_libraries(NonOscillatorySubdivision PUBLIC Threads::Threads)
+if(hwy_FOUND)
+  target_compile_definitions(NonOscillatorySubdivision PRIVATE NonOscillatorySubdivision_HAS_HIGHWAY)
+  target_link_libraries(NonOscillatorySubdivision PRIVATE hwy::hwy)
+endif()

@@ -1,0 +1,70 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# Builds the kernel and the array layer for other machines, compilers and libraries, without ITK, runs their tests under
+# QEMU, Wine or here, and compares the bytes of their outputs with those of x86:
+#   test_other_machines.sh [arm64 sve armhf ppc64el riscv64 s390x windows clang libcxx ...]
+# Without arguments, all of these. sve is arm64 at vectors of several widths. On Debian 12.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+repository=$PWD
+
+if [[ $# -eq 0 ]]; then
+  set -- arm64 sve armhf ppc64el riscv64 s390x windows clang libcxx
+fi
+scripts/install_packages.sh build test machines
+if command -v ccache > /dev/null; then
+  export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+fi
+
+# Unpacks Debian's Highway for another machine beside the builds; the system's packages stay as they are.
+unpack_highway()
+{
+  local architecture=$1 folder=$repository/build/sysroot-$1
+  if [[ ! -d $folder/usr ]]; then
+    mkdir -p "$folder/lists/partial"
+    echo "deb [arch=$architecture signed-by=/usr/share/keyrings/debian-archive-keyring.gpg]" \
+      "http://deb.debian.org/debian bookworm main" > "$folder/sources.list"
+    local options=(-o "Dir::State::Lists=$folder/lists" -o "Dir::Etc::SourceList=$folder/sources.list"
+      -o Dir::Etc::SourceParts=/dev/null -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache=
+      -o "APT::Architectures::=$(dpkg --print-architecture)" -o "APT::Architectures::=$architecture")
+    apt-get "${options[@]}" --quiet --quiet update
+    (cd "$folder" && apt-get "${options[@]}" --quiet --quiet download "libhwy-dev:$architecture" "libhwy1:$architecture")
+    for package in "$folder"/*.deb; do
+      dpkg-deb --extract "$package" "$folder"
+    done
+  fi
+  export SUBDIVISION_SYSROOT=$folder
+}
+
+build()
+{
+  (cd test/array && cmake --preset "$1" && cmake --build --preset "$1" --parallel "$(nproc)")
+}
+
+run_tests()
+{
+  ctest --test-dir "build/array-$1" --output-on-failure --parallel "$(nproc)" --timeout 3600
+}
+
+for machine in "$@"; do
+  echo "== $machine"
+  case $machine in
+    arm64)
+      unpack_highway arm64
+      build arm64
+      run_tests arm64
+      ;;
+    sve)
+      unpack_highway arm64
+      build arm64
+      for bits in 128 256 384 512 1024 2048; do
+        echo "== SVE with vectors of $bits bits"
+        QEMU_CPU="max,sve$bits=on,sve-default-vector-length=$((bits / 8))" run_tests arm64
+      done
+      ;;
+    *)
+      build "$machine"
+      run_tests "$machine"
+      ;;
+  esac
+done

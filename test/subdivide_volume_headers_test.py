@@ -95,6 +95,24 @@ class Headers(ProgramTest):
         write_nrrd(self.path("in.nrrd"), SIZE, "h", VALUES, encoding="bzip2")
         self.refuse("in.nrrd", "bzip2", "gzip")
 
+    def test_the_order_of_axes_of_an_mrc_file(self):
+        self.subdivide("truth.mha", "in.mrc")
+        self.read("in.mrc")
+        with open(self.path("in.mrc"), "r+b") as file:
+            file.seek(64)
+            file.write(struct.pack("<3i", 3, 2, 1))
+        self.refuse("in.mrc", "3 2 1")
+
+    def test_a_file_that_is_not_what_its_ending_says(self):
+        for ending, name in (("nii", "NIfTI"), ("png", "PNG"), ("h5", "HDF5"), ("vtk", "VTK"), ("bmp", "BMP")):
+            for content in (b"", b"hello, I am a text"):
+                with open(self.path(f"in.{ending}"), "wb") as file:
+                    file.write(content)
+                self.refuse(f"in.{ending}", f"no {name} file")
+        with open(self.path("in.xyz"), "wb") as file:
+            file.write(bytes(100))
+        self.refuse("in.xyz", "none of the known", "--raw")
+
     def write_bmp(self, name, colours):
         """A picture of 8 x 6 pixels with a table of colours."""
         pixels = bytes(noise(48, 0, 256))

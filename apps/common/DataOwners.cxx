@@ -59,7 +59,7 @@ Matches(const fs::path & pattern, const fs::path & data)
   }
   const std::string suffix = word.substr(end + 1);
   const std::size_t rest = percent + suffix.size();
-  return IsSameFile(pattern.parent_path(), data.parent_path()) && name.size() > rest &&
+  return IsSameFile(pattern.parent_path(), data.parent_path()) && name.size() >= rest &&
          name.compare(0, percent, word, 0, percent) == 0 &&
          name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0 &&
          name.substr(percent, name.size() - rest).find_first_not_of(" 0123456789") == std::string::npos;

@@ -168,6 +168,28 @@ CheckBmp(const std::string & path)
   }
 }
 
+/** The header tells which axis of space is the fastest one and which the slowest. */
+void
+CheckMrc(const std::string & path)
+{
+  constexpr std::streamoff      place = 64;
+  std::array<unsigned char, 12> bytes{};
+  std::ifstream                 file(path, std::ios::binary);
+  file.seekg(place);
+  file.read(reinterpret_cast<char *>(bytes.data()), bytes.size());
+  std::string order;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    // The numbers are from 1 to 3, in either byte order.
+    order += (axis > 0 ? " " : "") + std::to_string(bytes[4 * axis] + bytes[4 * axis + 3]);
+  }
+  if (file && order != "1 2 3" && order != "0 0 0")
+  {
+    throw std::runtime_error("cannot read " + path + ": its axes are stored in the order " + order +
+                             " of x, y and z, of which only 1 2 3 is supported; have its program save it so");
+  }
+}
+
 /** Reads the last voxel alone: reading regions, these formats do tell if there is nothing. */
 void
 CheckLastVoxel(const std::string & path, itk::ImageIOBase & imageIO)
@@ -227,6 +249,11 @@ CheckFileIsWhole(const std::string & path, itk::ImageIOBase & imageIO)
   else if (format == "GiplImageIO")
   {
     CheckGipl(path, imageIO);
+  }
+  else if (format == "MRCImageIO")
+  {
+    CheckMrc(path);
+    CheckLastVoxel(path, imageIO);
   }
   else if (format == "BMPImageIO")
   {

@@ -3,6 +3,7 @@
 #include "Bitmap.h"
 #include "BoxRuns.h"
 #include "FileIntegrity.h"
+#include "Formats.h"
 #include "HeaderText.h"
 #include "InputFile.h"
 #include "JpegIntegrity.h"
@@ -100,6 +101,20 @@ ReadsRegions(const itk::ImageIOBase & imageIO)
   return const_cast<itk::ImageIOBase &>(imageIO).CanStreamRead() && !isVectorNifti;
 }
 
+/** A reader for the format that a file's first bytes show. Some of those that look at them fail at an early end. */
+itk::ImageIOBase::Pointer
+FindByContent(const std::string & path)
+{
+  try
+  {
+    return itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::IOFileModeEnum::ReadMode);
+  }
+  catch (const itk::ExceptionObject &)
+  {
+    return nullptr;
+  }
+}
+
 /** A reader for the format that a name's ending says; ITK itself knows some endings in small letters only. */
 itk::ImageIOBase::Pointer
 FindByEnding(const std::string & path)
@@ -183,7 +198,7 @@ ItkReader::ItkReader(const std::string & path)
   const std::string known = GetKnownEnding(path);
   m_Links = known.empty() ? nullptr : LinkFolder::Get();
   const std::string name = m_Links == nullptr ? path : m_Links->Link(path, known);
-  m_ImageIO = itk::ImageIOFactory::CreateImageIO(name.c_str(), itk::IOFileModeEnum::ReadMode);
+  m_ImageIO = FindByContent(name);
   const std::string ending = std::filesystem::path(path).extension().string();
   if (m_ImageIO.IsNull() && ending != ToLower(ending))
   {
@@ -195,9 +210,12 @@ ItkReader::ItkReader(const std::string & path)
   }
   if (m_ImageIO.IsNull())
   {
+    const VolumeFormat * const format = FindVolumeFormat(path);
     FailToRead(path,
-               "it is in none of the known image formats, which SubdivideVolume --formats lists; --raw reads voxels "
-               "without a header");
+               (format == nullptr ? std::string("it is in none of the known image formats")
+                                  : "it is no " + std::string(format->Name) +
+                                      " file, or is damaged at its start, and is in none of the other known formats") +
+                 ", which SubdivideVolume --formats lists; --raw reads voxels without a header");
   }
   try
   {

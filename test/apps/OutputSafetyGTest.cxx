@@ -270,10 +270,10 @@ TEST_P(DetachedData, OfTwoHeadersAreNotReplaced)
                                     "data file: scan7.raw\n",
                                     "ElementDataFile = LIST\nother.raw\nscan7.raw\n",
                                     "data file: scan%01d.raw 1 9 1\n",
-                                    "data file: scan7%d.raw 1 2 1\n",
+                                    "data file: other%d.raw 1 9 1\n",
                                     "data file: elsewhere/scan7.raw\n" })
   {
-    const bool isOwner = std::string(owner).find("scan7%") == std::string::npos &&
+    const bool isOwner = std::string(owner).find("other%") == std::string::npos &&
                          std::string(owner).find("elsewhere") == std::string::npos;
     folder.WriteFile("second.nhdr", owner);
     auto other = Voxels;

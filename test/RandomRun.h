@@ -24,8 +24,8 @@ public:
     Mirror,
     Periodic,
     Constant,
-    ConstantOfEachComponent,
-    Custom
+    Custom,
+    ConstantOfEachComponent // along the first axis, which is not subdivided
   };
 
   /** \param mostAxes of the arrays
@@ -36,7 +36,9 @@ public:
     this->ChooseWhole(mostAxes, mostElements);
     this->ChooseAxes();
     this->ChooseScheme();
-    this->SetBoundary(static_cast<BoundaryKind>(this->Below(6)));
+    const auto kind = static_cast<BoundaryKind>(this->Below(5));
+    const bool hasComponents = !What.SubdividedAxes[0];
+    this->SetBoundary(hasComponents && kind == BoundaryKind::Constant ? BoundaryKind::ConstantOfEachComponent : kind);
   }
 
   unsigned int
@@ -145,8 +147,8 @@ public:
   std::string
   Describe() const
   {
-    constexpr const char * boundaries[] = { "nearest", "mirror", "periodic", "constant", "constant of each component",
-                                            "by index" };
+    constexpr const char * boundaries[] = { "nearest",  "mirror",   "periodic",
+                                            "constant", "by index", "constant of each component" };
     std::ostringstream     text;
     text << What.Scheme->Name << ", tension " << What.Tension << ", boundary " << boundaries[static_cast<int>(Kind)]
          << ", target " << What.Target->GetName() << ", first index:size";
@@ -255,9 +257,8 @@ RandomRun::SetBoundary(const BoundaryKind kind)
   using itk::Subdivision::Boundary;
   namespace ref = SubdivisionReference;
   constexpr unsigned int dimension = SubdividerOracle::Dimension;
-  // Constants of components are those along the first axis, where it is not subdivided.
-  Kind = kind == BoundaryKind::ConstantOfEachComponent && What.SubdividedAxes[0] ? BoundaryKind::Constant : kind;
-  switch (Kind)
+  Kind = kind;
+  switch (kind)
   {
     case BoundaryKind::Nearest:
       What.Boundary = Boundary::Nearest();

@@ -9,6 +9,7 @@
 #include <cfenv>
 #include <cmath>
 #include <thread>
+#include <utility>
 
 #if defined(__x86_64__)
 #  include <xmmintrin.h>
@@ -281,6 +282,63 @@ TEST(SubdividerExtremes, TheCallersArithmeticMakesNoDifferenceToLabels)
     SCOPED_TRACE(run.Describe());
     ExpectSameInEveryArithmetic(RunOfLabels{ run, input });
   });
+}
+
+/** Adds up what could not be held. */
+class LossMonitor final : public TileMonitor
+{
+public:
+  void
+  Completed(std::size_t) override
+  {}
+  bool
+  IsStopped() const override
+  {
+    return false;
+  }
+  bool
+  CountsLosses() const override
+  {
+    return true;
+  }
+  void
+  Lost(const std::size_t notANumber, const std::size_t clamped) override
+  {
+    NotANumber += notANumber;
+    Clamped += clamped;
+  }
+
+  std::size_t NotANumber{ 0 };
+  std::size_t Clamped{ 0 };
+};
+
+/** What rounds to a number of the type is no loss: a half below the least one, which is even; not one above the
+ * greatest, which is odd. */
+TEST(SubdividerExtremes, LossesAreCountedFromTheFirstNumberThatDoesNotFit)
+{
+  for (const ElementType type : { ElementType::UInt8, ElementType::Int8, ElementType::UInt16, ElementType::Int32 })
+  {
+    WithElementType(type, [type](const auto tag) {
+      using Limits = std::numeric_limits<typename decltype(tag)::Type>;
+      const auto   low = static_cast<double>(Limits::lowest());
+      const auto   high = static_cast<double>(Limits::max());
+      const double values[] = { low - 0.5, low - 0.75, low - 9, high + 0.25, high + 0.5, high + 1, std::nan(""), 0.0 };
+      TestArray    input(ElementType::Double, { { 0, 8 } });
+      for (std::int64_t i = 0; i < 8; ++i)
+      {
+        input.Set({ i }, values[i]);
+      }
+      TestArray output(type, { { 0, 8 } });
+      Options   options;
+      options.SubdividedAxes = { false };
+      Workspace   workspace;
+      LossMonitor monitor;
+      Subdivider  run(std::as_const(input).View(), input.GetBox(), output.View(), options, 1, workspace);
+      RunTiles(run, 1, monitor);
+      EXPECT_EQ(monitor.NotANumber, 1u) << GetName(type);
+      EXPECT_EQ(monitor.Clamped, 4u) << GetName(type);
+    });
+  }
 }
 
 } // namespace

@@ -70,8 +70,8 @@ FAULTS = [
     # Elements.
     Fault("rounding: ties away from zero", VECTORS + "RoundToElement.h",
           "rest > 0.5 || (rest == 0.5 && truncated % 2 != 0)", "rest > 0.5 || rest == 0.5"),
-    Fault("rounding: down, in plain vectors", VECTORS + "ConversionsPortable.h", "integersOnly = 12582912.0f",
-          "integersOnly = 12582911.5f"),
+    Fault("rounding: to halves, in plain vectors", VECTORS + "ConversionsPortable.h", "integersOnly = 12582912.0f",
+          "integersOnly = 6291456.0f"),
     Fault("rounding: no upper end in vector code", VECTORS + "ConversionsHighway-inl.h",
           "static_cast<float>(hwy::HighestValue<TElement>())", "static_cast<float>(2147483520.0f)", "VectorTests"),
     Fault("rounding: NaN is no 0", VECTORS + "RoundToElement.h", "if (number != number)", "if (number == number + 1)"),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""SubdivideVolume where the system fails it: disks, limits, folders and streams. The old output is intact or the new one
-complete, nothing else was touched, and the exit code is 0 only where the output is complete.
+"""SubdivideVolume where the system fails it: disks, limits, folders and streams. The old output is intact or the new
+one complete, nothing else was touched, and the exit code is 0 only where the output is complete.
 
     python3 test/subdivide_volume_faults_test.py --steps 20 PROGRAM
 
@@ -213,7 +213,8 @@ def main():
     globals()["STEPS"] = arguments.steps
     failed = not unittest.main(argv=[sys.argv[0], *rest], exit=False).result.wasSuccessful()
     codes = [code for _, code in RUNS]
-    print(f"{len(codes)} runs under faults: {codes.count(0)} complete, {len(codes) - codes.count(0)} failed and said so")
+    complete = codes.count(0)
+    print(f"{len(codes)} runs under faults: {complete} complete, {len(codes) - complete} failed and said so")
     sys.exit(failed)
 
 

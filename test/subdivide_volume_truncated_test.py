@@ -94,8 +94,8 @@ class Truncated(ProgramTest):
                 continue
             self.setUp()
             self.make_input(name, 48)
-            command = [subdivide_volume_case.PROGRAM, self.path(name), self.path("out.mha"), "--quiet", "--streams", "24",
-                       "--threads", "1"]
+            command = [subdivide_volume_case.PROGRAM, self.path(name), self.path("out.mha"), "--quiet", "--streams",
+                       "24", "--threads", "1"]
             path = self.path(cut)
             shutil.copy(path, self.path("whole"))
             start = time.monotonic()

@@ -62,8 +62,8 @@ def main():
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         start, voxel = measure(arguments.program, folder)
-        print(f"start and end of a process: {start:.3f} s of a core; each voxel of the output: {voxel * 1e9:.2f} ns of a "
-              "core\n")
+        print(f"start and end of a process: {start:.3f} s of a core; each voxel of the output: {voxel * 1e9:.2f} ns "
+              "of a core\n")
         print("| input | pieces | each reads | each writes | memory with --memory 4G | computing | the files | a run |")
         print("|---|---|---|---|---|---|---|---|")
         for size in (2048, 8192):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""SubdivideVolume where the system fails it: disks, limits, folders and streams. The old output is intact or the new one
-complete, nothing else was touched, and the exit code is 0 only where the output is complete.
+"""SubdivideVolume where the system fails it: disks, limits, folders and streams. The old output is intact or the new
+one complete, nothing else was touched, and the exit code is 0 only where the output is complete.
 
     python3 test/subdivide_volume_faults_test.py --steps 20 PROGRAM
 
@@ -40,8 +40,8 @@ class Faults(unittest.TestCase):
 
     @staticmethod
     def get_kinds(first):
-        """In a short test, a quarter of them for each fault."""
-        return list(KINDS) if STEPS >= 5 else list(KINDS)[first::4]
+        """In a short test, a sixth of them for each fault."""
+        return list(KINDS) if STEPS >= 5 else list(KINDS)[first::6]
 
     def make_scene(self, kind, **arguments):
         folder = os.path.join(self.folder, kind)
@@ -71,7 +71,7 @@ class Faults(unittest.TestCase):
     def test_the_disk_is_full(self):
         disk = os.path.join(self.folder, "disk")
         os.mkdir(disk)
-        for kind in self.get_kinds(1):
+        for kind in self.get_kinds(0):
             scene = self.make_scene(kind)
             needed = sum(os.path.getsize(os.path.join(root, name)) for root, _, names in os.walk(scene.saved)
                          for name in names)
@@ -99,7 +99,7 @@ class Faults(unittest.TestCase):
         return True
 
     def test_a_file_may_not_grow(self):
-        for kind in self.get_kinds(2):
+        for kind in self.get_kinds(1):
             scene = self.make_scene(kind)
             for size in spread(500, 260000):
                 result = self.hit(scene, size, preexec_fn=self.limit(resource.RLIMIT_FSIZE, size))
@@ -111,7 +111,7 @@ class Faults(unittest.TestCase):
         return lambda: resource.setrlimit(what, (value, value))
 
     def test_memory_is_short(self):
-        for kind in self.get_kinds(3):
+        for kind in self.get_kinds(2):
             scene = self.make_scene(kind)
             for size in spread(150 << 20, 600 << 20):
                 result = self.hit(scene, size, preexec_fn=self.limit(resource.RLIMIT_AS, size))
@@ -122,14 +122,14 @@ class Faults(unittest.TestCase):
             self.assertIn("--memory", result.stderr)
 
     def test_files_cannot_be_opened(self):
-        for kind in self.get_kinds(0):
+        for kind in self.get_kinds(3):
             scene = self.make_scene(kind)
             for number in (7, 12) if STEPS < 5 else range(3, 3 + STEPS):
                 self.hit(scene, number, preexec_fn=self.limit(resource.RLIMIT_NOFILE, number))
 
     def test_streams_are_closed(self):
         """The first files that are opened then have the numbers of the streams, and must not get what is printed."""
-        for kind in self.get_kinds(1):
+        for kind in self.get_kinds(4):
             scene = self.make_scene(kind)
             for closed in ((0, 1, 2), (1,), (2,), (1, 2))[:max(1, STEPS)]:
                 scene.options = [option for option in scene.options if option != "--quiet"]
@@ -143,7 +143,7 @@ class Faults(unittest.TestCase):
     def test_the_folder_vanishes(self):
         """It is renamed or removed, and perhaps another one stands there, in the middle of the run."""
         source = random.Random(1)
-        for kind in self.get_kinds(2):
+        for kind in self.get_kinds(5):
             scene = self.make_scene(kind, size=40)
             moved = scene.folder + "-moved"
             for way in ("rename", "replace", "remove") * max(1, STEPS // 3):
@@ -178,7 +178,7 @@ class Faults(unittest.TestCase):
             self.skipTest("root may write everywhere, and cannot become another user here")
         as_user = {"user": 65534} if os.geteuid() == 0 else {}
         os.chmod(self.folder, 0o755)
-        for kind in self.get_kinds(3):
+        for kind in self.get_kinds(0):
             scene = self.make_scene(kind)
             scene.prepare()
             for root, folders, names in os.walk(scene.folder):
@@ -199,7 +199,7 @@ class Faults(unittest.TestCase):
         if os.stat("/dev/shm").st_dev == os.stat(self.folder).st_dev:
             self.skipTest("there is one file system only")
         with tempfile.TemporaryDirectory(dir="/dev/shm") as other:
-            for kind in self.get_kinds(0):
+            for kind in self.get_kinds(1):
                 scene = self.make_scene(kind, target=os.path.join(other, "target"))
                 self.assertEqual(self.hit(scene, "other disk").returncode, 0)
 
@@ -213,7 +213,8 @@ def main():
     globals()["STEPS"] = arguments.steps
     failed = not unittest.main(argv=[sys.argv[0], *rest], exit=False).result.wasSuccessful()
     codes = [code for _, code in RUNS]
-    print(f"{len(codes)} runs under faults: {codes.count(0)} complete, {len(codes) - codes.count(0)} failed and said so")
+    complete = codes.count(0)
+    print(f"{len(codes)} runs under faults: {complete} complete, {len(codes) - complete} failed and said so")
     sys.exit(failed)
 
 

@@ -28,8 +28,8 @@ SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 WHO = ("both", "child", "watcher", *SIGNALS)
 
 # The calls with which a run makes, changes and names files.
-CALLS = ("openat", "mkdir", "write", "pwrite64", "ftruncate", "fallocate", "fsync", "chmod", "fchmod", "fchmodat", "link",
-         "linkat", "rename", "renameat", "renameat2", "unlink", "unlinkat", "rmdir", "flock")
+CALLS = ("openat", "mkdir", "write", "pwrite64", "ftruncate", "fallocate", "fsync", "chmod", "fchmod", "fchmodat",
+         "link", "linkat", "rename", "renameat", "renameat2", "unlink", "unlinkat", "rmdir", "flock")
 
 
 def find_children(process):

@@ -14,3 +14,14 @@ RemoveWhenInterrupted(const InterruptLock &, const std::filesystem::path & folde
   record.TemporaryFolder.Set(folder);
   record.UnfinishedOutput.Set(output);
 }
+
+void
+RemoveTemporaryFolder(const InterruptLock & lock, const std::filesystem::path & folder)
+{
+  std::error_code error;
+  std::filesystem::remove_all(folder, error);
+  if (!error)
+  {
+    RemoveWhenInterrupted(lock, {}, {});
+  }
+}

@@ -22,4 +22,8 @@ RemoveWhenInterrupted(const InterruptLock &         lock,
                       const std::filesystem::path & folder,
                       const std::filesystem::path & output);
 
+/** Removes such a folder. What cannot be removed now, the watcher removes at the end of the run. */
+void
+RemoveTemporaryFolder(const InterruptLock & lock, const std::filesystem::path & folder);
+
 #endif

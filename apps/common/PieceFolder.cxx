@@ -90,10 +90,10 @@ PieceFolder::~PieceFolder()
   {
     close(m_Agreement);
   }
-  std::error_code error;
-  const auto      lock = HoldInterrupts();
-  fs::remove_all(m_Temporary, error);
-  RemoveWhenInterrupted(lock, {}, {});
+  if (!m_Temporary.empty())
+  {
+    RemoveTemporaryFolder(HoldInterrupts(), m_Temporary);
+  }
 }
 
 void
@@ -165,10 +165,12 @@ PieceFolder::Begin(const PieceAgreement & agreement, const PieceWriter & writer)
   // It fails where another process was faster, since the folder is not empty.
   if (rename(m_Temporary.c_str(), m_Folder.c_str()) != 0)
   {
-    std::error_code ignored;
-    fs::remove_all(m_Temporary, ignored);
+    RemoveTemporaryFolder(lock, m_Temporary);
   }
-  RemoveWhenInterrupted(lock, {}, {});
+  else
+  {
+    RemoveWhenInterrupted(lock, {}, {});
+  }
   m_Temporary.clear();
 }
 
@@ -366,6 +368,5 @@ PieceFolder::Remove() const
     rename(m_Folder.c_str(), going.c_str());
   }
   RemoveWhenInterrupted(lock, going, {});
-  fs::remove_all(going, error);
-  RemoveWhenInterrupted(lock, {}, {});
+  RemoveTemporaryFolder(lock, going);
 }

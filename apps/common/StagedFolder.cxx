@@ -67,13 +67,7 @@ StagedFolder::StagedFolder(const fs::path & output)
   RemoveWhenInterrupted(lock, m_Folder, m_Output);
 }
 
-StagedFolder::~StagedFolder()
-{
-  std::error_code error;
-  const auto      lock = HoldInterrupts();
-  fs::remove_all(m_Folder, error);
-  RemoveWhenInterrupted(lock, {}, {});
-}
+StagedFolder::~StagedFolder() { RemoveTemporaryFolder(HoldInterrupts(), m_Folder); }
 
 void
 StagedFolder::Fail(int error) const

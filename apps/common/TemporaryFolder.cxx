@@ -226,9 +226,7 @@ TemporaryFolder::~TemporaryFolder()
 void
 TemporaryFolder::Remove(const InterruptLock & lock)
 {
-  std::error_code error;
-  fs::remove_all(m_Folder, error);
-  RemoveWhenInterrupted(lock, {}, {});
+  RemoveTemporaryFolder(lock, m_Folder);
   m_Folder.clear();
 }
 

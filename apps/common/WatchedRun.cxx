@@ -16,6 +16,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -48,6 +49,20 @@ GetEndingSignals()
     }
   }
   return signals;
+}
+
+/** Files must not get the numbers of streams that the parent has closed: what is printed would go there. Printing fails
+ * all the same. */
+void
+OccupyClosedStreams()
+{
+  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor)
+  {
+    if (fcntl(descriptor, F_GETFD) < 0)
+    {
+      static_cast<void>(open("/dev/null", O_RDONLY)); // the least free number
+    }
+  }
 }
 
 /** Ends the program as the signal would have done, so that its parent sees that it was interrupted. */
@@ -252,6 +267,7 @@ Explain(const Ending & ending)
 int
 RunWatched(const std::function<int()> & run, double longestOpening)
 {
+  OccupyClosedStreams();
   ResetRunRecord();
   LibraryMessages::Prepare();
   std::fflush(nullptr);

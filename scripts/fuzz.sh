@@ -1,0 +1,30 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# Fuzzes the kernel and array layers, and the programs' readers of headers and short texts, under the address and
+# undefined-behaviour sanitizers, with clang's libFuzzer:
+#   fuzz.sh [RUNS [FUZZER ...]]    RUNS executions (a million) of SubdividerFuzz, HeaderFuzz and TextFuzz
+# What is found stands in build/fuzz/. What is worth keeping of a corpus goes to test/fuzz/corpus:
+#   build/fuzz/HeaderFuzz -merge=1 test/fuzz/corpus/header build/fuzz/corpus-HeaderFuzz
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+runs=${1:-1000000}
+fuzzers=("${@:2}")
+if [[ ${#fuzzers[@]} -eq 0 ]]; then
+  fuzzers=(SubdividerFuzz HeaderFuzz TextFuzz)
+fi
+declare -A folders=([SubdividerFuzz]=subdivider [HeaderFuzz]=header [TextFuzz]=text)
+
+scripts/install_packages.sh build fuzz
+if command -v ccache > /dev/null; then
+  export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+fi
+CC=clang CXX=clang++ cmake -S test/fuzz -B build/fuzz -G Ninja
+cmake --build build/fuzz --parallel "$(nproc)" --target "${fuzzers[@]}"
+for fuzzer in "${fuzzers[@]}"; do
+  kept=$PWD/test/fuzz/corpus/${folders[$fuzzer]}
+  mkdir -p "build/fuzz/corpus-$fuzzer"
+  # Files of a run lie in memory.
+  (cd build/fuzz && TMPDIR=/dev/shm "./$fuzzer" -runs="$runs" -max_len=2048 -timeout=60 -print_final_stats=1 \
+    -dict="$PWD/../../test/fuzz/headers.dict" "corpus-$fuzzer" "$kept")
+done

@@ -439,4 +439,21 @@ TEST(SubdividerProperties, PartsHaveTheBytesOfTheWhole)
   });
 }
 
+/** What a workspace keeps of a run does not show in the next one, not even where the tension alone is another. */
+TEST(SubdividerProperties, AWorkspaceForgetsTheTensionBefore)
+{
+  ForEachSymmetricRun([](SymmetricRun & run) {
+    run.SetScheme(run.Below(2) == 0 ? 0 : 4);
+    const TestArray input = run.MakeValues();
+    const TestArray expected = run.Subdivide(input);
+    TestArray       output(run.Type, run.GetWholeOutput());
+    Workspace       workspace;
+    Options         before = run.What;
+    before.Tension = run.Below(2) == 0 ? 100.0 : 1.001;
+    Subdivide(input, run.Whole, output, before, 1, workspace);
+    Subdivide(input, run.Whole, output, run.What, 1, workspace);
+    ExpectEach(output, 0.0, [&](const Index & index) { return expected.Get(index); });
+  });
+}
+
 } // namespace

@@ -13,6 +13,7 @@
 #include "RawReader.h"
 #include "TiffStack.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -85,6 +86,33 @@ CheckStack(const std::optional<TiffStack> & stack, const std::uint64_t pages)
   for (const std::uint64_t plane : stack->Planes)
   {
     FuzzExpect(plane < pages, "a plane beyond the file's pages");
+  }
+}
+
+/** Whether a text may count 100 000 planes or more and yet no more than a file may have. They are allowed, but listing
+ * them takes so long under sanitizers that a fuzzer would do little else. */
+bool
+MayCountManyPlanes(const std::string & text)
+{
+  constexpr const char * digits = "0123456789";
+  for (std::size_t first = 0; (first = text.find_first_of(digits, first)) != std::string::npos;)
+  {
+    const std::size_t end = std::min(text.find_first_not_of(digits, first), text.size());
+    if (end - first >= 6 && end - first <= 8)
+    {
+      return true;
+    }
+    first = end;
+  }
+  return false;
+}
+
+void
+FuzzImageJ(const std::string & text)
+{
+  if (!MayCountManyPlanes(text))
+  {
+    CheckStack(ParseImageJ(text), std::numeric_limits<std::uint64_t>::max());
   }
 }
 
@@ -196,7 +224,7 @@ Fuzz(FuzzBytes & bytes)
     case 3:
       return FuzzOptions(bytes);
     case 4:
-      return CheckStack(ParseImageJ(bytes.Rest()), std::numeric_limits<std::uint64_t>::max());
+      return FuzzImageJ(bytes.Rest());
     case 5:
     {
       const unsigned int pages = bytes.Byte();

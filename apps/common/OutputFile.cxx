@@ -57,16 +57,17 @@ OutputFile::CheckRoom(std::uint64_t size) const
   }
 }
 
-void
+bool
 OutputFile::Reserve(std::uint64_t size)
 {
   // Where the disk is far too small, blocks are not even tried for: they take a while.
   this->CheckRoom(size);
-  this->ReserveRange(0, size);
+  const bool isReserved = this->ReserveRange(0, size);
   if (ftruncate(m_Descriptor, static_cast<off_t>(size)) != 0)
   {
     Fail(m_Meant, std::strerror(errno));
   }
+  return isReserved;
 }
 
 void
@@ -79,13 +80,15 @@ OutputFile::SetSize(std::uint64_t size)
   }
 }
 
-void
+bool
 OutputFile::ReserveRange(std::uint64_t offset, std::uint64_t count)
 {
 #ifdef __linux__
-  // Not every file system can; then the disk may run full while the voxels are written.
-  if (count > 0 && fallocate(m_Descriptor, 0, static_cast<off_t>(offset), static_cast<off_t>(count)) != 0 &&
-      (errno == ENOSPC || errno == EDQUOT || errno == EFBIG))
+  if (count == 0 || fallocate(m_Descriptor, 0, static_cast<off_t>(offset), static_cast<off_t>(count)) == 0)
+  {
+    return true;
+  }
+  if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG)
   {
     Fail(m_Meant, std::strerror(errno));
   }
@@ -93,6 +96,14 @@ OutputFile::ReserveRange(std::uint64_t offset, std::uint64_t count)
   static_cast<void>(offset);
   static_cast<void>(count);
 #endif
+  // Not every file system can; then the disk may run full while the voxels are written.
+  return false;
+}
+
+void
+OutputFile::DoNotHurry()
+{
+  m_IsHurried = false;
 }
 
 void
@@ -121,7 +132,10 @@ OutputFile::WriteAt(std::uint64_t offset, const void * bytes, std::uint64_t coun
     }
 #ifdef __linux__
     // The disk begins at once, so that bringing the file to it does not take as long again at the end. A hint.
-    (void)sync_file_range(m_Descriptor, static_cast<off_t>(offset), written, SYNC_FILE_RANGE_WRITE);
+    if (m_IsHurried)
+    {
+      (void)sync_file_range(m_Descriptor, static_cast<off_t>(offset), written, SYNC_FILE_RANGE_WRITE);
+    }
 #endif
     bytes = static_cast<const char *>(bytes) + written;
     offset += static_cast<std::uint64_t>(written);

@@ -24,8 +24,9 @@ public:
   operator=(const OutputFile &) = delete;
 
   /** Gives the file its full size and blocks for it, so that the disk cannot run full later.
+   * \return whether the file system can; if not, only bringing the file to the disk tells that there was room
    * \throw std::runtime_error if the disk has no room */
-  void
+  bool
   Reserve(std::uint64_t size);
 
   /** Gives the file its full size without blocks for it: others take those for the parts that they write.
@@ -34,9 +35,14 @@ public:
   SetSize(std::uint64_t size);
 
   /** Takes blocks for a part of the file, whose bytes stay as they are.
+   * \return whether the file system can
    * \throw std::runtime_error if the disk has no room */
-  void
+  bool
   ReserveRange(std::uint64_t offset, std::uint64_t count);
+
+  /** Nobody will wait until the file is on the disk: then the disk need not begin with each part that is written. */
+  void
+  DoNotHurry();
 
   /** Brings all that was written to the disk.
    * \throw std::runtime_error */
@@ -53,6 +59,7 @@ private:
 
   std::string m_Meant;
   int         m_Descriptor;
+  bool        m_IsHurried{ true };
 };
 
 #endif

@@ -55,7 +55,11 @@ PlainWriter::Begin(const ImageDescription & description)
   m_BytesWritten = m_CompressedBytes = 0;
   if (!m_Options.Compress)
   {
-    data.Reserve(m_DataOffset + m_Description.GetNumberOfVoxels() * m_Description.GetVoxelBytes());
+    if (data.Reserve(m_DataOffset + m_Description.GetNumberOfVoxels() * m_Description.GetVoxelBytes()) &&
+        m_Folder->RelyOnRoom())
+    {
+      data.DoNotHurry();
+    }
     return;
   }
   m_Deflate =

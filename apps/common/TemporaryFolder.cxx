@@ -283,6 +283,14 @@ TemporaryFolder::RemoveAfterwards(const std::string & name)
   m_Obsolete.insert(name);
 }
 
+bool
+TemporaryFolder::RelyOnRoom()
+{
+  std::error_code error;
+  m_WaitsForDisk = fs::exists(fs::symlink_status(m_Output, error));
+  return !m_WaitsForDisk;
+}
+
 void
 TemporaryFolder::NameDataBy(const std::string &                                     dataName,
                             const std::function<std::string(const std::string &)> & composeHeader)
@@ -338,7 +346,10 @@ TemporaryFolder::Commit()
   const fs::path target = m_Output.parent_path();
   for (const fs::path & name : names)
   {
-    BringToDisk(m_Folder / name, m_Output);
+    if (m_WaitsForDisk)
+    {
+      BringToDisk(m_Folder / name, m_Output);
+    }
     if (name != m_Output.filename() && m_Replaceable.count(name.string()) == 0 && fs::exists(target / name))
     {
       throw std::runtime_error("cannot write " + m_Output.string() + ": its data would replace the file " +

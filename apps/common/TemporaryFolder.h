@@ -66,6 +66,12 @@ public:
   void
   NameDataBy(const std::string & dataName, const std::function<std::string(const std::string &)> & composeHeader);
 
+  /** Tells Commit() that the disk has room for all that was written. An output that replaces none then need not be
+   * waited for until it is on the disk: a disk that fails later takes nothing that was there before.
+   * \return whether Commit() will not wait */
+  bool
+  RelyOnRoom();
+
   /** Brings all files to the disk and renames them, the named output last, so that no moment lies between at which the
    * old one stands beside another's files. Files whose names alone make them one image, as .hdr and .img, lack the
    * named one meanwhile.
@@ -85,6 +91,7 @@ private:
   std::filesystem::path       m_Output;
   std::filesystem::path       m_Folder;
   bool                        m_IsInPlace = false;
+  bool                        m_WaitsForDisk = true;
   std::set<std::string>       m_Replaceable;
   std::set<std::string>       m_Obsolete;
   std::optional<DetachedPair> m_Pair;

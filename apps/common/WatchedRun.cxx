@@ -297,7 +297,8 @@ RunWatched(const std::function<int()> & run, double longestOpening)
   pthread_sigmask(SIG_SETMASK, &mask, nullptr);
   if (GetRunRecord().HasEnded && WIFEXITED(ending.Status))
   {
-    return WEXITSTATUS(ending.Status);
+    // Not by way of the libraries' destructors, which take milliseconds: here nothing was made.
+    EndRun(WEXITSTATUS(ending.Status));
   }
   const std::string task = GetRunRecord().Task.Get();
   const bool        mayBeDamaged =

@@ -367,6 +367,24 @@ TEST(Subdivider, CustomBoundaryWithAPartOfTheInput)
   EXPECT_EQ(CountDifferences(output, expected), 0u);
 }
 
+/** Each component of the pixels has the outside of its own. */
+TEST(Subdivider, AConstantForEachComponent)
+{
+  const std::vector<double> constants{ 5.0, -7.0, 11.0 };
+  const TestArray           whole = MakeInput(ElementType::Float, { { 0, 3 }, { 0, 9 }, { 0, 8 } }, 1);
+  Options                   options = MakeOptions({ false, true, true });
+  options.Boundary = Boundary::Constant(constants);
+  const TestArray all = MakeWhole(whole, ElementType::Float, options);
+  for (std::int64_t component = 0; component < 3; ++component)
+  {
+    SCOPED_TRACE(component);
+    const TestArray one = Cut(whole, { { component, 1 }, { 0, 9 }, { 0, 8 } }, TestLayout::Dense(3));
+    options.Boundary = Boundary::Constant({ constants[static_cast<std::size_t>(component)] });
+    const TestArray expected = MakeWhole(one, ElementType::Float, options);
+    EXPECT_EQ(CountDifferences(Cut(all, expected.GetBox(), TestLayout::Dense(3)), expected), 0u);
+  }
+}
+
 /** The message of what making a Subdivider throws. */
 template <typename TException = std::invalid_argument>
 std::string

@@ -3,8 +3,8 @@
 # Builds the kernel and the array layer for other machines, compilers and libraries, without ITK, runs their tests under
 # QEMU, Wine or here, and compares the bytes of their outputs with those of x86:
 #   test_other_machines.sh [arm64 sve armhf ppc64el riscv64 s390x windows clang libcxx ...]
-# Without arguments, all of these. sve is arm64 at vectors of several widths. On Debian 12. Where QEMU or Wine runs them,
-# the generated tests have 10 cases each and the longest tests are left out; SUBDIVISION_CASES=300 GTEST_FILTER='*' runs
+# Without arguments, all of these. sve is arm64 at vectors of several widths. On Debian 12. Where QEMU or Wine runs
+# them, the generated tests have 10 cases each and some long tests are left out; SUBDIVISION_CASES=300 GTEST_FILTER='*' runs
 # all that the others run, in many times the time.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -2,6 +2,7 @@
 #include "TemporaryFolder.h"
 #include "InputFile.h"
 #include "Interrupt.h"
+#include "StagedFolder.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -60,23 +61,6 @@ CopyOver(const fs::path & from, const fs::path & to)
   }
 }
 
-/** Errors of writing may show up as late as here. */
-void
-BringToDisk(const fs::path & file, const fs::path & output)
-{
-  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0)
-  {
-    Fail(output, errno);
-  }
-  const int result = fsync(descriptor);
-  const int error = errno;
-  close(descriptor);
-  if (result != 0 && error != EINVAL)
-  {
-    Fail(output, error);
-  }
-}
 /** Gives a file the permissions of the one that it is to replace, if there is one. */
 void
 KeepPermissions(const fs::path & replaced, const fs::path & file)
@@ -348,7 +332,11 @@ TemporaryFolder::Commit()
   {
     if (m_WaitsForDisk)
     {
-      BringToDisk(m_Folder / name, m_Output);
+      // Errors of writing may show up as late as here.
+      if (const int error = BringToDisk(m_Folder / name); error != 0)
+      {
+        Fail(m_Output, error);
+      }
     }
     if (name != m_Output.filename() && m_Replaceable.count(name.string()) == 0 && fs::exists(target / name))
     {

@@ -6,6 +6,7 @@
 //   ArrayBytes HASHES           compares with a file of such lines; names each line that differs
 //   ArrayBytes --print FUSING   writes the lines, with the second hash by that target: AVX2, NEON, SVE
 
+#include "../GreyValues.h"
 #include "HashedArray.h"
 
 #include "NonOscillatorySubdivision/LabelSubdivider.h"
@@ -28,33 +29,6 @@ using namespace itk::Subdivision;
 
 using Sizes3 = std::vector<std::uint64_t>;
 using Lines = std::vector<std::string>;
-
-/** Scrambled bits (SplitMix64): the same numbers everywhere. */
-std::uint64_t
-Scramble(std::uint64_t x)
-{
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
-/** Noise, flat parts with steps, and spikes, as thresholds differ on each; 16 bits. */
-std::uint64_t
-GetGreyValue(const std::uint64_t position)
-{
-  switch (position / 7 % 4)
-  {
-    case 0:
-      return Scramble(position) >> 48;
-    case 1:
-      return (Scramble(position / 7) >> 48) + 5 * (position % 7);
-    case 2:
-      return 1000 + 300 * (position % 7) * (position % 7);
-    default:
-      return position % 7 == 3 ? 65535 : 200;
-  }
-}
 
 /** Bodies of a few voxels of four labels. */
 std::uint64_t

@@ -4,6 +4,8 @@
 //   GoldenBytes HASHES     compares with a file of such lines; names each line that differs
 //   GoldenBytes --print    writes the lines
 
+#include "../GreyValues.h"
+
 #include "itkConstantBoundaryCondition.h"
 #include "itkImage.h"
 #include "itkMirrorBoundaryCondition.h"
@@ -46,38 +48,11 @@ Hash(std::uint64_t hash, const void * const bytes, const std::size_t count)
   return hash;
 }
 
-/** Scrambled bits (SplitMix64): the same numbers everywhere. */
-std::uint64_t
-Scramble(std::uint64_t x)
-{
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
-/** Noise, flat parts with steps, and spikes, as thresholds differ on each; 16 bits, 12 of them where it is smooth. */
-std::uint64_t
-Sample(const std::uint64_t position)
-{
-  switch (position / 7 % 4)
-  {
-    case 0:
-      return Scramble(position) >> 48;
-    case 1:
-      return (Scramble(position / 7) >> 48) + 5 * (position % 7);
-    case 2:
-      return 1000 + 300 * (position % 7) * (position % 7);
-    default:
-      return position % 7 == 3 ? 65535 : 200;
-  }
-}
-
 template <typename TComponent>
 TComponent
 Component(const std::uint64_t position)
 {
-  const std::uint64_t sample = Sample(position);
+  const std::uint64_t sample = GetGreyValue(position);
   if constexpr (std::is_floating_point<TComponent>::value)
   {
     return static_cast<TComponent>(static_cast<double>(sample) / 1000.0 - 20.0);

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/statvfs.h>
@@ -43,7 +44,23 @@ OutputFile::OutputFile(const std::string & path, const std::string & meant, cons
   }
 }
 
-OutputFile::~OutputFile() { close(m_Descriptor); }
+OutputFile::~OutputFile()
+{
+  if (m_Descriptor >= 0)
+  {
+    close(m_Descriptor);
+  }
+}
+
+void
+OutputFile::Close()
+{
+  const int descriptor = std::exchange(m_Descriptor, -1);
+  if (close(descriptor) != 0 && errno != EINTR)
+  {
+    Fail(m_Meant, std::strerror(errno));
+  }
+}
 
 void
 OutputFile::CheckRoom(std::uint64_t size) const

@@ -53,6 +53,11 @@ public:
   void
   WriteAt(std::uint64_t offset, const void * bytes, std::uint64_t count);
 
+  /** Nothing can be written afterwards. File systems of other machines tell here what they could not write before.
+   * \throw std::runtime_error */
+  void
+  Close();
+
 private:
   void
   CheckRoom(std::uint64_t size) const;

@@ -120,8 +120,11 @@ PlainWriter::Commit()
   }
   m_Header.Text = this->ComposeHeader(m_Header.DataName);
   m_HeaderFile->WriteAt(0, m_Header.Text.data(), m_Header.Text.size());
-  m_HeaderFile.reset();
-  m_DataFile.reset();
+  m_HeaderFile->Close();
+  if (m_DataFile != nullptr)
+  {
+    m_DataFile->Close();
+  }
   CheckPlainFile(m_Folder->GetFileName().string(), m_Path, m_Description);
   if (m_Header.IsDetached)
   {

@@ -301,4 +301,27 @@ TEST_P(DetachedData, ThatAppearMeanwhileAreNotReplaced)
   EXPECT_EQ(folder.ReadFile("scan.raw"), "another image's voxels");
 }
 
+/** As where a file system of another machine tells at the end that it could not write. */
+TEST_P(DetachedData, ThatCannotBeClosedAreNoOutput)
+{
+  const TestFolder  folder;
+  const std::string path = folder / (std::string("scan") + GetParam());
+  const auto        writer = CreateVolume(path, {}, [](const std::string &) {});
+  writer->Begin(Description);
+  writer->Write(GetWholeBox(Description.Grid.Size), Voxels.data());
+  int closed = 0;
+  for (int descriptor = 0; descriptor < 1024; ++descriptor)
+  {
+    std::error_code error;
+    if (fs::read_symlink("/proc/self/fd/" + std::to_string(descriptor), error).filename() == "scan.raw")
+    {
+      close(descriptor);
+      ++closed;
+    }
+  }
+  ASSERT_EQ(closed, 1);
+  EXPECT_NE(GetError([&] { writer->Commit(); }).find("cannot write " + path), std::string::npos);
+  EXPECT_FALSE(fs::exists(path));
+}
+
 INSTANTIATE_TEST_SUITE_P(Formats, DetachedData, testing::Values(".mhd", ".nhdr"));

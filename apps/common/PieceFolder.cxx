@@ -215,20 +215,21 @@ PieceFolder::MakeTemporaryFolder()
 std::optional<std::uint32_t>
 PieceFolder::FindNote(const unsigned int piece) const
 {
-  const fs::path  path = m_Folder / "notes" / std::to_string(piece);
-  std::ifstream   file(path);
-  std::uint32_t   checksum = 0;
-  std::error_code error;
+  const fs::path path = m_Folder / "notes" / std::to_string(piece);
+  errno = 0;
+  std::ifstream file(path);
+  std::uint32_t checksum = 0;
   if (file >> checksum)
   {
     return checksum;
   }
-  if (fs::exists(path, error))
+  // Not asked again: another process may have noted it since.
+  if (!file.is_open() && (errno == ENOENT || errno == ENOTDIR))
   {
-    this->Fail("it is not known whether piece " + std::to_string(piece) + " is done: " + path.string() +
-               " cannot be read");
+    return std::nullopt;
   }
-  return std::nullopt;
+  this->Fail("it is not known whether piece " + std::to_string(piece) + " is done: " + path.string() +
+             " cannot be read");
 }
 
 void

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // CompareVolumes REFERENCE TEST: how far a volume is from a reference, as text or as JSON.
 
-#include "CommandLine.h"
+#include "commandline/CommandLine.h"
 #include "Figures.h"
-#include "FileIntegrity.h"
+#include "itk/FileIntegrity.h"
 #include "GridComparison.h"
-#include "LibraryMessages.h"
-#include "OneLineMessage.h"
-#include "Warnings.h"
-#include "WatchedRun.h"
+#include "system/LibraryMessages.h"
+#include "text/OneLineMessage.h"
+#include "commandline/Warnings.h"
+#include "system/WatchedRun.h"
 
 #include "itkMacro.h"
 

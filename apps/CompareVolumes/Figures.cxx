@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Figures.h"
 
-#include "RealVoxels.h"
+#include "volumes/RealVoxels.h"
 
 #include "itkImageFidelityCalculator.h"
 

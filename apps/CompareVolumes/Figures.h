@@ -2,7 +2,7 @@
 #ifndef Figures_h
 #define Figures_h
 
-#include "VolumeReader.h"
+#include "volumes/VolumeReader.h"
 
 #include <cstdint>
 #include <string>

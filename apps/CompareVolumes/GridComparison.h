@@ -2,7 +2,7 @@
 #ifndef GridComparison_h
 #define GridComparison_h
 
-#include "ImageDescription.h"
+#include "volumes/ImageDescription.h"
 
 /** How far apart the same voxel of two grids of one size lies at most, in voxels of the first along any of its axes. */
 double

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FormatTable.h"
 
-#include "Formats.h"
+#include "formats/Formats.h"
 
 #include <nlohmann/json.hpp>
 

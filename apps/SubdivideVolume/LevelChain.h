@@ -2,9 +2,9 @@
 #ifndef LevelChain_h
 #define LevelChain_h
 
-#include "ImageDescription.h"
+#include "volumes/ImageDescription.h"
 #include "Options.h"
-#include "PageBuffer.h"
+#include "system/PageBuffer.h"
 #include "Pieces.h"
 
 #include "NonOscillatorySubdivision/Subdivider.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Options.h"
 
-#include "CommandLine.h"
+#include "commandline/CommandLine.h"
 #include "SlicerDescription.h"
 
 #include "NonOscillatorySubdivision/LabelSubdivider.h"

@@ -3,8 +3,8 @@
 #define Options_h
 
 #include "PieceChoice.h"
-#include "VolumeReader.h"
-#include "VolumeWriter.h"
+#include "volumes/VolumeReader.h"
+#include "volumes/VolumeWriter.h"
 
 #include <cstdint>
 #include <optional>

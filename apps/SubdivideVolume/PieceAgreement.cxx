@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PieceAgreement.h"
 
-#include "FileState.h"
+#include "system/FileState.h"
 #include "SlicerDescription.h"
 
 #include "NonOscillatorySubdivision/Target.h"

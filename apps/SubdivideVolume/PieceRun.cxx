@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PieceRun.h"
 
-#include "CommandLine.h"
-#include "PieceFolder.h"
+#include "commandline/CommandLine.h"
+#include "pieces/PieceFolder.h"
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,7 @@
 #define PieceRun_h
 
 #include "Options.h"
-#include "PieceWriter.h"
+#include "pieces/PieceWriter.h"
 #include "Pieces.h"
 
 #include <vector>

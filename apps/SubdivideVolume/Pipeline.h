@@ -4,11 +4,11 @@
 
 #include "Channel.h"
 #include "LevelChain.h"
-#include "PageBuffer.h"
+#include "system/PageBuffer.h"
 #include "Plan.h"
 #include "Progress.h"
-#include "VolumeReader.h"
-#include "VolumeWriter.h"
+#include "volumes/VolumeReader.h"
+#include "volumes/VolumeWriter.h"
 #include "VoxelCounter.h"
 
 #include <atomic>

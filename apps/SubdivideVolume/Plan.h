@@ -5,8 +5,8 @@
 #include "LevelChain.h"
 #include "Options.h"
 #include "Pieces.h"
-#include "VolumeReader.h"
-#include "VolumeWriter.h"
+#include "volumes/VolumeReader.h"
+#include "volumes/VolumeWriter.h"
 
 #include <vector>
 

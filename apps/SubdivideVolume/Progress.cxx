@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Progress.h"
-#include "LibraryMessages.h"
+#include "system/LibraryMessages.h"
 
 #include <algorithm>
 #include <cstdio>

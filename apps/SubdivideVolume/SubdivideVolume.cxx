@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Doubles the resolution of an image. See SubdivideVolume --help.
 
-#include "CommandLine.h"
-#include "Dicom.h"
-#include "FileIntegrity.h"
-#include "FileState.h"
+#include "commandline/CommandLine.h"
+#include "dicom/Dicom.h"
+#include "itk/FileIntegrity.h"
+#include "system/FileState.h"
 #include "FormatTable.h"
 #include "LevelChain.h"
-#include "LibraryMessages.h"
-#include "Metadata.h"
-#include "OneLineMessage.h"
+#include "system/LibraryMessages.h"
+#include "headers/Metadata.h"
+#include "text/OneLineMessage.h"
 #include "Options.h"
 #include "PieceAgreement.h"
-#include "PieceFolder.h"
+#include "pieces/PieceFolder.h"
 #include "PieceRun.h"
 #include "Pipeline.h"
 #include "Plan.h"
@@ -20,8 +20,8 @@
 #include "SlicerDescription.h"
 #include "Summary.h"
 #include "VoxelCounter.h"
-#include "Warnings.h"
-#include "WatchedRun.h"
+#include "commandline/Warnings.h"
+#include "system/WatchedRun.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -2,7 +2,7 @@
 #ifndef Summary_h
 #define Summary_h
 
-#include "ImageDescription.h"
+#include "volumes/ImageDescription.h"
 #include "Options.h"
 #include "Plan.h"
 #include "Statistics.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "VoxelCounter.h"
 
-#include "BoxRuns.h"
+#include "volumes/BoxRuns.h"
 
 #include "NonOscillatorySubdivision/RunTiles.h"
 

@@ -2,7 +2,7 @@
 #ifndef DicomTest_h
 #define DicomTest_h
 
-#include "Dicom.h"
+#include "dicom/Dicom.h"
 #include "DicomTestData.h"
 
 #include "gtest/gtest.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "LibraryMessages.h"
-#include "RegularInput.h"
+#include "system/LibraryMessages.h"
+#include "system/RegularInput.h"
 
 #include "gtest/gtest.h"
 

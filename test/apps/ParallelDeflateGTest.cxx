@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ParallelDeflate.h"
+#include "deflate/ParallelDeflate.h"
 
-#include "DeflateBlock.h"
-#include "InflateStream.h"
+#include "deflate/DeflateBlock.h"
+#include "deflate/InflateStream.h"
 #include "TestFolder.h"
 
 #include <gtest/gtest.h>

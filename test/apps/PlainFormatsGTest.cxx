@@ -3,8 +3,8 @@
 #include "TestFolder.h"
 #include "VolumeTestImages.h"
 
-#include "HeaderText.h"
-#include "ItkReader.h"
+#include "text/HeaderText.h"
+#include "itk/ItkReader.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "TestFolder.h"
 #include "VolumeTestImages.h"
 
-#include "ItkReader.h"
+#include "itk/ItkReader.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "RawReader.h"
+#include "plain/RawReader.h"
 #include "TestFolder.h"
 #include "TiffTestFile.h"
 #include "VolumeTestAccess.h"

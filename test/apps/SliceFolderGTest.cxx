@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "SliceFolder.h"
+#include "slices/SliceFolder.h"
 #include "TestFolder.h"
 #include "TiffTestFile.h"
 #include "VolumeTestAccess.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TestFolder.h"
-#include "TiffReader.h"
+#include "tiff/TiffReader.h"
 #include "TiffTestFile.h"
 #include "VolumeTestAccess.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "SliceFolder.h"
-#include "SliceFolderWriter.h"
+#include "slices/SliceFolder.h"
+#include "slices/SliceFolderWriter.h"
 #include "TestFolder.h"
-#include "TiffReader.h"
-#include "TiffWriter.h"
+#include "tiff/TiffReader.h"
+#include "tiff/TiffWriter.h"
 #include "VolumeTestAccess.h"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 #ifndef VolumeTestAccess_h
 #define VolumeTestAccess_h
 
-#include "VolumeReader.h"
-#include "VolumeWriter.h"
+#include "volumes/VolumeReader.h"
+#include "volumes/VolumeWriter.h"
 
 #include <algorithm>
 #include <cstring>

@@ -2,8 +2,8 @@
 #ifndef VolumeTestImages_h
 #define VolumeTestImages_h
 
-#include "VolumeReader.h"
-#include "VolumeWriter.h"
+#include "volumes/VolumeReader.h"
+#include "volumes/VolumeWriter.h"
 
 #include <cstdint>
 #include <cstring>

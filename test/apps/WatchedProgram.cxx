@@ -2,10 +2,10 @@
 // A program whose run ends in the way its first argument names, for watched_run_test.py. The second one is a file to be
 // made in a temporary folder first; of "dicom", the file or folder to read.
 
-#include "Dicom.h"
-#include "Interrupt.h"
-#include "LibraryMessages.h"
-#include "WatchedRun.h"
+#include "dicom/Dicom.h"
+#include "system/Interrupt.h"
+#include "system/LibraryMessages.h"
+#include "system/WatchedRun.h"
 
 #include <csignal>
 #include <cstdio>

@@ -6,12 +6,12 @@
 #include "FuzzFolder.h"
 
 #include "../../apps/SubdivideVolume/PieceChoice.h"
-#include "CommandLine.h"
-#include "DicomGeometry.h"
-#include "HeaderText.h"
-#include "InflateStream.h"
-#include "RawReader.h"
-#include "TiffStack.h"
+#include "commandline/CommandLine.h"
+#include "dicom/DicomGeometry.h"
+#include "text/HeaderText.h"
+#include "deflate/InflateStream.h"
+#include "plain/RawReader.h"
+#include "tiff/TiffStack.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "headers/DataFiles.h"
+#include "text/HeaderText.h"
+#include "system/InputFile.h"
+
+#include <filesystem>
+
+namespace
+{
+/** The place after so many lines. */
+std::uint64_t
+SkipLines(const InputFile & file, std::uint64_t start, std::uint64_t lines)
+{
+  while (lines > 0)
+  {
+    const std::string text = file.ReadTextAt(start, 1 << 16);
+    if (text.empty())
+    {
+      FailToRead(file.GetPath(), "it is truncated");
+    }
+    std::size_t position = 0;
+    for (; lines > 0; --lines)
+    {
+      const auto end = text.find('\n', position);
+      if (end == std::string::npos)
+      {
+        position = text.size();
+        break;
+      }
+      position = end + 1;
+    }
+    start += position;
+  }
+  return start;
+}
+
+/** The part of a raw file that holds the voxels, and nothing after them. */
+FileSection
+FindRawVoxels(const InputFile & file, std::uint64_t start, std::int64_t byteSkip, std::uint64_t bytes)
+{
+  const std::uint64_t size = file.GetSize();
+  const std::uint64_t skip =
+    byteSkip < 0 ? (size - start > bytes ? size - start - bytes : 0) : static_cast<std::uint64_t>(byteSkip);
+  const std::uint64_t available = size - start > skip ? size - start - skip : 0;
+  if (available < bytes)
+  {
+    FailToRead(file.GetPath(),
+               "it is truncated, with " + std::to_string(available) + " of " + std::to_string(bytes) +
+                 " bytes of data");
+  }
+  if (available > bytes)
+  {
+    FailToRead(file.GetPath(),
+               "it holds " + std::to_string(available) + " bytes of data, but its header says " +
+                 std::to_string(bytes) + "; the size or the type of the image in the header is wrong");
+  }
+  return { file.GetPath(), start + skip, bytes };
+}
+
+FileSection
+FindStream(const InputFile & file, std::uint64_t start, const DataFiles & files)
+{
+  const std::uint64_t available = file.GetSize() - start;
+  if (files.CompressedSize > available || available == 0)
+  {
+    FailToRead(file.GetPath(), "its compressed data is truncated or damaged");
+  }
+  return { file.GetPath(), start, files.CompressedSize > 0 ? files.CompressedSize : available };
+}
+} // namespace
+
+void
+LocateData(const std::string & path, const DataFiles & files, PlainLayout & layout)
+{
+  const std::uint64_t bytes = layout.Description.GetNumberOfVoxels() * layout.Description.GetVoxelBytes();
+  const std::size_t   count = files.Names.empty() ? 1 : files.Names.size();
+  if (bytes % count != 0 || (count > 1 && layout.IsCompressed))
+  {
+    FailToRead(path, "its voxels cannot be spread over " + std::to_string(count) + " data files like that");
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const bool          isOwn = files.Names.empty();
+    const std::string   name = isOwn ? path : (std::filesystem::path(path).parent_path() / files.Names[i]).string();
+    const InputFile     file(name);
+    const std::uint64_t start = SkipLines(file, isOwn ? files.HeaderEnd : 0, files.LineSkip);
+    layout.Sections.push_back(layout.IsCompressed ? FindStream(file, start, files)
+                                                  : FindRawVoxels(file, start, files.ByteSkip, bytes / count));
+  }
+}

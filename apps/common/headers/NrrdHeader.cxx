@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "headers/NrrdHeader.h"
+#include "headers/DataFiles.h"
+#include "text/HeaderText.h"
+#include "system/InputFile.h"
+#include "headers/NrrdAxes.h"
+#include "headers/NrrdFields.h"
+
+namespace
+{
+using itk::Subdivision::ElementType;
+
+const std::map<std::string, ElementType> Types = {
+  { "signed char", ElementType::Int8 },
+  { "int8", ElementType::Int8 },
+  { "int8_t", ElementType::Int8 },
+  { "uchar", ElementType::UInt8 },
+  { "unsigned char", ElementType::UInt8 },
+  { "uint8", ElementType::UInt8 },
+  { "uint8_t", ElementType::UInt8 },
+  { "short", ElementType::Int16 },
+  { "short int", ElementType::Int16 },
+  { "signed short", ElementType::Int16 },
+  { "signed short int", ElementType::Int16 },
+  { "int16", ElementType::Int16 },
+  { "int16_t", ElementType::Int16 },
+  { "ushort", ElementType::UInt16 },
+  { "unsigned short", ElementType::UInt16 },
+  { "unsigned short int", ElementType::UInt16 },
+  { "uint16", ElementType::UInt16 },
+  { "uint16_t", ElementType::UInt16 },
+  { "int", ElementType::Int32 },
+  { "signed int", ElementType::Int32 },
+  { "int32", ElementType::Int32 },
+  { "int32_t", ElementType::Int32 },
+  { "uint", ElementType::UInt32 },
+  { "unsigned int", ElementType::UInt32 },
+  { "uint32", ElementType::UInt32 },
+  { "uint32_t", ElementType::UInt32 },
+  { "longlong", ElementType::Int64 },
+  { "long long", ElementType::Int64 },
+  { "long long int", ElementType::Int64 },
+  { "signed long long", ElementType::Int64 },
+  { "signed long long int", ElementType::Int64 },
+  { "int64", ElementType::Int64 },
+  { "int64_t", ElementType::Int64 },
+  { "ulonglong", ElementType::UInt64 },
+  { "unsigned long long", ElementType::UInt64 },
+  { "unsigned long long int", ElementType::UInt64 },
+  { "uint64", ElementType::UInt64 },
+  { "uint64_t", ElementType::UInt64 },
+  { "float", ElementType::Float },
+  { "double", ElementType::Double },
+};
+
+std::vector<std::string>
+FindDataFiles(const std::string & path, const NrrdFields & fields)
+{
+  const std::string              value = fields.Find("datafile").value_or("");
+  const std::vector<std::string> words = SplitWords(value);
+  if (words.empty())
+  {
+    return {};
+  }
+  const bool isPattern = words.size() >= 4 && words[0].find('%') != std::string::npos;
+  if ((words[0] == "LIST" && words.size() > 1) || (isPattern && words.size() > 4))
+  {
+    throw HeaderNotUnderstood("data files of another dimension");
+  }
+  if (words[0] == "LIST")
+  {
+    if (fields.ListedNames.empty())
+    {
+      FailToRead(path, "its header lists no data files");
+    }
+    return fields.ListedNames;
+  }
+  if (isPattern)
+  {
+    return ExpandPattern(path,
+                         words[0],
+                         ParseInteger(path, "data file", words[1]),
+                         ParseInteger(path, "data file", words[2]),
+                         ParseInteger(path, "data file", words[3]));
+  }
+  return { value };
+}
+
+/** What the header says besides the grid. A space that was turned into LPS is none of it, nor is what refers to it. */
+void
+CopyMetadata(const NrrdFields & fields, ImageDescription & description)
+{
+  description.Metadata = fields.KeyValues;
+  const std::string space = ToLower(fields.Find("space").value_or("lps"));
+  const bool        isTurned = GetSigns(space, 3) != std::vector<double>(3, 1.0);
+  const bool        isLps = space == "lps" || space == "left-posterior-superior";
+  for (const char * const name : { "content", "sample units", "space units", "units", "measurement frame", "space" })
+  {
+    const auto value = fields.Find(NormaliseNrrdName(name));
+    const bool isOfSpace = std::string(name) == "measurement frame" || std::string(name) == "space";
+    if (value && !(isOfSpace && isTurned) && !(std::string(name) == "space" && isLps))
+    {
+      description.Metadata[std::string("NRRD_") + name] = *value;
+    }
+  }
+}
+
+bool
+IsBigEndian(const std::string & path, const NrrdFields & fields, ElementType type)
+{
+  const std::string endian = ToLower(fields.Find("endian").value_or(""));
+  if (endian != "little" && endian != "big" && !(endian.empty() && itk::Subdivision::SizeOf(type) == 1))
+  {
+    FailToRead(path, "its header does not say whether the byte order is little or big");
+  }
+  return endian == "big";
+}
+} // namespace
+
+PlainLayout
+ReadNrrdHeader(const std::string & path)
+{
+  const InputFile    file(path);
+  const NrrdFields   fields(file);
+  PlainLayout        layout;
+  ImageDescription & description = layout.Description;
+  description.Format = "NRRD";
+  const std::string type = ToLower(fields.Get("type"));
+  const auto        known = Types.find(type);
+  if (known == Types.end())
+  {
+    FailToRead(path, "voxels of the type '" + type + "' are not supported");
+  }
+  description.Component = known->second;
+  const std::string encoding = ToLower(fields.Get("encoding"));
+  layout.IsCompressed = encoding == "gz" || encoding == "gzip";
+  if (encoding == "ascii" || encoding == "text" || encoding == "txt" || encoding == "hex")
+  {
+    throw HeaderNotUnderstood("the encoding " + encoding);
+  }
+  if (!layout.IsCompressed && encoding != "raw")
+  {
+    FailToRead(path, "its encoding " + encoding + " is not supported; raw, gzip, ascii and hex are");
+  }
+  NrrdAxes(path, fields).Describe(description);
+  CheckDescription(path, description);
+  CopyMetadata(fields, description);
+  layout.IsBigEndian = IsBigEndian(path, fields, description.Component);
+
+  DataFiles files;
+  files.HeaderEnd = fields.End;
+  const std::int64_t lines = ParseInteger(path, "line skip", fields.Find("lineskip").value_or("0"));
+  files.ByteSkip = ParseInteger(path, "byte skip", fields.Find("byteskip").value_or("0"));
+  if (lines < 0 || files.ByteSkip < -1 || (layout.IsCompressed && files.ByteSkip < 0))
+  {
+    FailToRead(path, "its header has a negative number of lines or bytes to skip");
+  }
+  files.LineSkip = static_cast<std::uint64_t>(lines);
+  files.Names = FindDataFiles(path, fields);
+  if (layout.IsCompressed && files.Names.size() > 1)
+  {
+    throw HeaderNotUnderstood("several compressed data files");
+  }
+  layout.InflatedOffset = layout.IsCompressed ? static_cast<std::uint64_t>(files.ByteSkip) : 0;
+  LocateData(path, files, layout);
+  return layout;
+}

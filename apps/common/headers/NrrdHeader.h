@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef NrrdHeader_h
+#define NrrdHeader_h
+
+#include "headers/Metadata.h"
+#include "headers/PlainLayout.h"
+
+#include <string>
+
+/** Reads the header of an NRRD (.nrrd, .nhdr) and finds its voxels.
+ * \throw HeaderNotUnderstood if the image is none of those whose voxels simply stand in files
+ * \throw std::runtime_error if the header or the files are not right */
+PlainLayout
+ReadNrrdHeader(const std::string & path);
+
+/** A whole header, the empty line at its end included.
+ * \param dataFile the name of the data file; empty: the voxels follow the header */
+std::string
+ComposeNrrdHeader(const ImageDescription & description,
+                  const OutputMetadata &   metadata,
+                  const std::string &      dataFile,
+                  bool                     isCompressed);
+
+#endif

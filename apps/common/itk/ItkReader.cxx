@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "itk/ItkReader.h"
+#include "itk/Bitmap.h"
+#include "volumes/BoxRuns.h"
+#include "itk/FileIntegrity.h"
+#include "formats/Formats.h"
+#include "text/HeaderText.h"
+#include "system/InputFile.h"
+#include "itk/JpegIntegrity.h"
+#include "nifti/NiftiFiles.h"
+#include "nifti/NiftiHeader.h"
+#include "text/OneLineMessage.h"
+#include "itk/PixelComponent.h"
+#include "system/WatchedRun.h"
+
+#include "itkImageFileReader.h" // registers the formats
+#include "itkMetaDataObject.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+namespace
+{
+using itk::Subdivision::Box;
+using itk::Subdivision::ElementType;
+
+/** The formats' own names for themselves are their classes'. */
+std::string
+GetFormatName(const itk::ImageIOBase & imageIO)
+{
+  const std::string name = imageIO.GetNameOfClass();
+  const std::string suffix = "ImageIO";
+  const auto        end = name.rfind(suffix);
+  const std::string format = end == std::string::npos ? name : name.substr(0, end);
+  return format == "Nifti" ? "NIfTI" : format == "Nrrd" ? "NRRD" : format == "Meta" ? "MetaImage" : format;
+}
+
+VoxelKind
+GetKind(const itk::ImageIOBase & imageIO)
+{
+  switch (imageIO.GetPixelType())
+  {
+    case itk::IOPixelEnum::RGB:
+      return VoxelKind::Rgb;
+    case itk::IOPixelEnum::RGBA:
+      return VoxelKind::Rgba;
+    case itk::IOPixelEnum::COMPLEX:
+      return VoxelKind::Complex;
+    case itk::IOPixelEnum::SYMMETRICSECONDRANKTENSOR:
+    case itk::IOPixelEnum::DIFFUSIONTENSOR3D:
+      return VoxelKind::SymmetricTensor;
+    default:
+      return imageIO.GetNumberOfComponents() == 1 ? VoxelKind::Scalar : VoxelKind::Vector;
+  }
+}
+
+std::map<std::string, std::string>
+GetMetadata(const itk::MetaDataDictionary & dictionary)
+{
+  std::map<std::string, std::string> metadata;
+  for (const std::string & key : dictionary.GetKeys())
+  {
+    std::string value;
+    if (itk::ExposeMetaData<std::string>(dictionary, key, value))
+    {
+      metadata[key] = value;
+    }
+  }
+  return metadata;
+}
+
+ImageDescription
+Describe(const std::string & path, const itk::ImageIOBase & imageIO)
+{
+  ImageDescription description;
+  for (unsigned int axis = 0; axis < imageIO.GetNumberOfDimensions(); ++axis)
+  {
+    description.Grid.Size.push_back(imageIO.GetDimensions(axis));
+    description.Grid.Spacing.push_back(imageIO.GetSpacing(axis));
+    description.Grid.Origin.push_back(imageIO.GetOrigin(axis));
+    description.Grid.Directions.push_back(imageIO.GetDirection(axis));
+  }
+  description.Component = WithComponentType(
+    imageIO.GetComponentType(), [](auto value) { return itk::Subdivision::ElementTypeOf<decltype(value)>(); });
+  description.NumberOfComponents = imageIO.GetNumberOfComponents();
+  description.Kind = GetKind(imageIO);
+  description.Format = GetFormatName(imageIO);
+  description.Metadata = GetMetadata(imageIO.GetMetaDataDictionary());
+  CheckDescription(path, description);
+  return description;
+}
+
+/** Whether ITK's reader of the format reads a region right, without the rest. */
+bool
+ReadsRegions(const itk::ImageIOBase & imageIO)
+{
+  // It mixes up the components of a region's vectors.
+  const bool isVectorNifti =
+    std::string(imageIO.GetNameOfClass()) == "NiftiImageIO" && imageIO.GetNumberOfComponents() > 1;
+  return const_cast<itk::ImageIOBase &>(imageIO).CanStreamRead() && !isVectorNifti;
+}
+
+/** A reader for the format that a file's first bytes show. Some of those that look at them fail at an early end. */
+itk::ImageIOBase::Pointer
+FindByContent(const std::string & path)
+{
+  try
+  {
+    return itk::ImageIOFactory::CreateImageIO(path.c_str(), itk::IOFileModeEnum::ReadMode);
+  }
+  catch (const itk::ExceptionObject &)
+  {
+    return nullptr;
+  }
+}
+
+/** A reader for the format that a name's ending says; ITK itself knows some endings in small letters only. */
+itk::ImageIOBase::Pointer
+FindByEnding(const std::string & path)
+{
+  const std::string ending = ToLower(std::filesystem::path(path).extension().string());
+  for (const auto & object : itk::ObjectFactoryBase::CreateAllInstance("itkImageIOBase"))
+  {
+    auto * const imageIO = dynamic_cast<itk::ImageIOBase *>(object.GetPointer());
+    if (imageIO == nullptr)
+    {
+      continue;
+    }
+    const auto & known = imageIO->GetSupportedReadExtensions();
+    if (std::find(known.begin(), known.end(), ending) != known.end())
+    {
+      return imageIO;
+    }
+  }
+  return nullptr;
+}
+
+/** The ending in small letters under which ITK reads a file whose own it does not know; empty if it knows that. GIPL's
+ * reader lists no endings, and finds out by them whether the file is compressed. */
+std::string
+GetKnownEnding(const std::string & path)
+{
+  const std::string name = std::filesystem::path(path).filename().string();
+  for (const std::string ending : { ".gipl", ".gipl.gz" })
+  {
+    const std::size_t length = std::min(name.size(), ending.size());
+    const std::string own = name.substr(name.size() - length);
+    if (own != ending && ToLower(own) == ending)
+    {
+      return ending;
+    }
+  }
+  return GetMistakenNiftiEnding(path);
+}
+
+bool
+IsWhole(const std::vector<std::uint64_t> & size, const Box & box)
+{
+  for (std::size_t axis = 0; axis < size.size(); ++axis)
+  {
+    if (box[axis].First != 0 || box[axis].Size != size[axis])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+} // namespace
+
+std::string
+GetReason(const std::exception & error)
+{
+  const auto * const itkError = dynamic_cast<const itk::ExceptionObject *>(&error);
+  const std::string  text = MakeOneLine(itkError != nullptr ? itkError->GetDescription() : error.what());
+  const std::string  start = "ITK ERROR: ";
+  return text.rfind(start, 0) == 0 ? text.substr(start.size()) : text;
+}
+
+ItkReader::ItkReader(const std::string & path)
+  : m_Path(path)
+{
+  const WatchedTask task("cannot read " + path);
+  if (HasNiftiEndingInMixedCase(path))
+  {
+    FailToRead(path, "NIfTI files' endings are in small letters or in capitals, not in both; rename it");
+  }
+  if (IsNiftiPair(path))
+  {
+    FindNiftiPair(path); // says which file of the two is not there
+  }
+  InputFile{ path }; // says why it cannot be opened, and keeps pipes from being waited for
+  const std::string fault = FindJpegFault(path);
+  if (!fault.empty())
+  {
+    FailToRead(path, "it is damaged or truncated (" + fault + ")");
+  }
+  const std::string known = GetKnownEnding(path);
+  m_Links = known.empty() ? nullptr : LinkFolder::Get();
+  const std::string name = m_Links == nullptr ? path : m_Links->Link(path, known);
+  m_ImageIO = FindByContent(name);
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (m_ImageIO.IsNull() && ending != ToLower(ending))
+  {
+    m_ImageIO = FindByEnding(path);
+  }
+  if (m_ImageIO.IsNull() && NiftiHeader(path).IsOfVersion2())
+  {
+    FailToRead(path, "it is a NIfTI-2 file, of which only version 1 is supported; save it as NIfTI-1 or NRRD");
+  }
+  if (m_ImageIO.IsNull())
+  {
+    const VolumeFormat * const format = FindVolumeFormat(path);
+    FailToRead(path,
+               (format == nullptr ? std::string("it is in none of the known image formats")
+                                  : "it is no " + std::string(format->Name) +
+                                      " file, or is damaged at its start, and is in none of the other known formats") +
+                 ", which SubdivideVolume --formats lists; --raw reads voxels without a header");
+  }
+  try
+  {
+    if (std::string(m_ImageIO->GetNameOfClass()) == "BMPImageIO")
+    {
+      m_ImageIO = OpenBitmap(name);
+    }
+    else
+    {
+      m_ImageIO->SetFileName(name);
+      m_ImageIO->ReadImageInformation();
+    }
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    FailToRead(path, GetReason(error));
+  }
+  m_Description = Describe(path, *m_ImageIO);
+  m_ReadsParts = ReadsRegions(*m_ImageIO);
+  CheckFileIsWhole(path, *m_ImageIO);
+}
+
+bool
+ItkReader::ReadsParts() const
+{
+  return m_ReadsParts;
+}
+
+std::uint64_t
+ItkReader::GetScratchBytes(std::uint64_t partBytes) const
+{
+  return partBytes; // several of the formats' readers read into an array of their own
+}
+
+void
+ItkReader::ReadRegion(const Box & box, void * voxels)
+{
+  const WatchedTask  task("cannot read " + m_Path);
+  itk::ImageIORegion region(static_cast<unsigned int>(box.size()));
+  for (unsigned int axis = 0; axis < box.size(); ++axis)
+  {
+    region.SetIndex(axis, box[axis].First);
+    region.SetSize(axis, box[axis].Size);
+  }
+  try
+  {
+    m_ImageIO->SetIORegion(region);
+    m_ImageIO->Read(voxels);
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    const std::string & format = m_Description.Format;
+    const bool          isPicture = format == "PNG" || format == "JPEG" || format == "BMP";
+    FailToRead(m_Path, isPicture ? "its pixels cannot be decoded; it is damaged or truncated" : GetReason(error));
+  }
+}
+
+void
+ItkReader::Read(const Box & box, void * voxels)
+{
+  const std::vector<std::uint64_t> & size = m_Description.Grid.Size;
+  if (m_ReadsParts || (IsWhole(size, box) && m_Whole.empty()))
+  {
+    this->ReadRegion(box, voxels);
+    return;
+  }
+  const std::uint64_t voxelBytes = m_Description.GetVoxelBytes();
+  if (m_Whole.empty())
+  {
+    m_Whole.resize(static_cast<std::size_t>(m_Description.GetNumberOfVoxels() * voxelBytes));
+    Box whole;
+    for (const std::uint64_t count : size)
+    {
+      whole.push_back({ 0, count });
+    }
+    this->ReadRegion(whole, m_Whole.data());
+  }
+  char * bytes = static_cast<char *>(voxels);
+  ForEachRun(size, box, [&](std::uint64_t first, std::uint64_t count) {
+    std::memcpy(bytes, m_Whole.data() + first * voxelBytes, count * voxelBytes);
+    bytes += count * voxelBytes;
+  });
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef ItkReader_h
+#define ItkReader_h
+
+#include "system/LinkFolder.h"
+#include "volumes/VolumeReader.h"
+
+#include "itkImageIOBase.h"
+
+#include <memory>
+#include <vector>
+
+/** Reads an image file of any format that ITK reads. */
+class ItkReader : public VolumeReader
+{
+public:
+  /** \throw std::runtime_error that says why the file cannot be read, or is not whole */
+  explicit ItkReader(const std::string & path);
+
+  bool
+  ReadsParts() const override;
+
+  std::uint64_t
+  GetScratchBytes(std::uint64_t partBytes) const override;
+
+  void
+  Read(const itk::Subdivision::Box & box, void * voxels) override;
+
+private:
+  void
+  ReadRegion(const itk::Subdivision::Box & box, void * voxels);
+
+  std::string                 m_Path;
+  std::shared_ptr<LinkFolder> m_Links;   // where the file is opened by a link
+  itk::ImageIOBase::Pointer   m_ImageIO; // has read the header
+  bool                        m_ReadsParts;
+  std::vector<char>           m_Whole;
+};
+
+/** What an exception says, less the place in the code that ITK's exceptions name. */
+std::string
+GetReason(const std::exception & error);
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "itk/JpegIntegrity.h"
+
+#include <csetjmp>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include <jpeglib.h> // needs <cstdio> before it
+
+namespace
+{
+/** What the library tells of errors, which it must not return from, and of warnings. */
+struct ErrorManager
+{
+  jpeg_error_mgr Base; // first: the library knows this part
+  std::jmp_buf   End;
+  char           Text[JMSG_LENGTH_MAX];
+};
+
+void
+KeepText(j_common_ptr decoder)
+{
+  auto * const errors = reinterpret_cast<ErrorManager *>(decoder->err);
+  if (errors->Text[0] == '\0')
+  {
+    decoder->err->format_message(decoder, errors->Text);
+  }
+}
+
+[[noreturn]] void
+EndWithError(j_common_ptr decoder)
+{
+  KeepText(decoder);
+  std::longjmp(reinterpret_cast<ErrorManager *>(decoder->err)->End, 1);
+}
+
+void
+HandleMessage(j_common_ptr decoder, int level)
+{
+  if (level < 0) // a warning of damaged data
+  {
+    ++decoder->err->num_warnings;
+    KeepText(decoder);
+  }
+}
+
+/** Nothing with a destructor may live here, where an error jumps out of. */
+void
+Decode(jpeg_decompress_struct & decoder, std::FILE * const file, std::vector<unsigned char> & row)
+{
+  jpeg_stdio_src(&decoder, file);
+  jpeg_read_header(&decoder, TRUE);
+  jpeg_start_decompress(&decoder);
+  row.resize(std::size_t{ decoder.output_width } * static_cast<std::size_t>(decoder.output_components));
+  while (decoder.output_scanline < decoder.output_height)
+  {
+    unsigned char * const start = row.data();
+    JSAMPROW              rows[] = { start };
+    jpeg_read_scanlines(&decoder, rows, 1);
+  }
+  jpeg_finish_decompress(&decoder);
+}
+} // namespace
+
+std::string
+FindJpegFault(const std::string & path)
+{
+  const std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  if (file == nullptr || std::fgetc(file.get()) != 0xff || std::fgetc(file.get()) != 0xd8)
+  {
+    return {};
+  }
+  std::rewind(file.get());
+  jpeg_decompress_struct     decoder = {};
+  ErrorManager               errors = {};
+  std::vector<unsigned char> row;
+  decoder.err = jpeg_std_error(&errors.Base);
+  errors.Base.error_exit = EndWithError;
+  errors.Base.emit_message = HandleMessage;
+  if (setjmp(errors.End) == 0)
+  {
+    jpeg_create_decompress(&decoder);
+    Decode(decoder, file.get(), row);
+  }
+  jpeg_destroy_decompress(&decoder);
+  return errors.Text;
+}

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nifti/NiftiHeader.h"
+#include "text/HeaderText.h"
+
+#include "itk_zlib.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace
+{
+/** Where numbers stand. */
+constexpr std::size_t Dimensions = 40;
+constexpr std::size_t Bits = 72;
+constexpr std::size_t Spacings = 76;
+constexpr std::size_t DataOffset = 108;
+constexpr std::size_t Slope = 112;
+constexpr std::size_t Intercept = 116;
+constexpr std::size_t QuaternionCode = 252;
+constexpr std::size_t MatrixCode = 254;
+constexpr std::size_t Quaternion = 256;
+constexpr std::size_t Offsets = 268;
+constexpr std::size_t Rows = 280;
+constexpr std::size_t Magic = 344;
+} // namespace
+
+NiftiHeader::NiftiHeader(const std::string & path)
+{
+  const gzFile file = gzopen(path.c_str(), "rb");
+  m_IsComplete = file != nullptr && gzread(file, m_Bytes.data(), Size) == static_cast<int>(Size);
+  if (file != nullptr)
+  {
+    gzclose(file);
+  }
+  m_IsSwapped = this->Get<std::int16_t>(Dimensions) < 1 || this->Get<std::int16_t>(Dimensions) > 7;
+}
+
+template <typename T>
+T
+NiftiHeader::Get(const std::size_t offset) const
+{
+  std::array<char, sizeof(T)> bytes;
+  std::copy_n(m_Bytes.begin() + static_cast<std::ptrdiff_t>(offset), sizeof(T), bytes.begin());
+  if (m_IsSwapped)
+  {
+    std::reverse(bytes.begin(), bytes.end());
+  }
+  T number;
+  std::memcpy(&number, bytes.data(), sizeof(T));
+  return number;
+}
+
+bool
+NiftiHeader::IsSingleFile() const
+{
+  return m_IsComplete && std::memcmp(m_Bytes.data() + Magic, "n+1", 3) == 0;
+}
+
+bool
+NiftiHeader::IsOfPair() const
+{
+  return m_IsComplete && this->Get<std::int32_t>(0) == static_cast<std::int32_t>(Size);
+}
+
+bool
+NiftiHeader::IsOfVersion2() const
+{
+  return m_IsComplete &&
+         (std::memcmp(m_Bytes.data() + 4, "n+2", 3) == 0 || std::memcmp(m_Bytes.data() + 4, "ni2", 3) == 0);
+}
+
+std::uint64_t
+NiftiHeader::GetDataOffset() const
+{
+  const float offset = this->Get<float>(DataOffset);
+  return offset >= 0 && offset < 1e15f ? static_cast<std::uint64_t>(offset) : 0;
+}
+
+std::uint64_t
+NiftiHeader::GetDataBytes() const
+{
+  std::uint64_t bits = this->Get<std::uint16_t>(Bits);
+  for (int axis = 1; axis <= this->Get<std::int16_t>(Dimensions); ++axis)
+  {
+    bits *= this->Get<std::uint16_t>(Dimensions + 2 * static_cast<std::size_t>(axis));
+  }
+  return bits / 8;
+}
+
+std::string
+NiftiHeader::FindFault() const
+{
+  constexpr std::uint64_t least = Size + 4; // the header, and whether extensions follow
+  const float             intercept = this->Get<float>(Intercept);
+  if (this->IsSingleFile() && this->GetDataOffset() < least)
+  {
+    return "its header says that its voxels start at byte " + std::to_string(this->GetDataOffset()) +
+           ", where the header itself is; they start at 352 or later (vox_offset)";
+  }
+  const bool isNifti = m_IsComplete && m_Bytes[Magic] == 'n';
+  if (isNifti && this->Get<float>(Slope) == 0.0f && intercept != 0.0f && std::isfinite(intercept))
+  {
+    return "its header has an intercept of " + FormatReal(intercept) +
+           ", but a slope of 0, which programs take in different ways; set scl_slope to 1 or scl_inter to 0";
+  }
+  return {};
+}
+
+NiftiHeader::Matrix
+NiftiHeader::GetQuaternionMatrix() const
+{
+  const double b = this->Get<float>(Quaternion);
+  const double c = this->Get<float>(Quaternion + 4);
+  const double d = this->Get<float>(Quaternion + 8);
+  const double a = std::sqrt(std::max(0.0, 1.0 - b * b - c * c - d * d));
+  const Matrix turn = { { { a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c), 0 },
+                          { 2 * (b * c + a * d), a * a + c * c - b * b - d * d, 2 * (c * d - a * b), 0 },
+                          { 2 * (b * d - a * c), 2 * (c * d + a * b), a * a + d * d - b * b - c * c, 0 } } };
+  Matrix       matrix = turn;
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double sign = axis == 2 && this->Get<float>(Spacings) < 0 ? -1.0 : 1.0;
+      matrix[row][axis] *= sign * this->Get<float>(Spacings + 4 * (axis + 1));
+    }
+    matrix[row][3] = this->Get<float>(Offsets + 4 * row);
+  }
+  return matrix;
+}
+
+NiftiHeader::Matrix
+NiftiHeader::GetMatrix() const
+{
+  Matrix matrix;
+  for (std::size_t i = 0; i < 12; ++i)
+  {
+    matrix[i / 4][i % 4] = this->Get<float>(Rows + 4 * i);
+  }
+  return matrix;
+}
+
+bool
+NiftiHeader::IsPlacedTwice() const
+{
+  if (!m_IsComplete || m_Bytes[Magic] != 'n' || this->Get<std::int16_t>(QuaternionCode) <= 0 ||
+      this->Get<std::int16_t>(MatrixCode) <= 0)
+  {
+    return false;
+  }
+  const Matrix a = this->GetQuaternionMatrix();
+  const Matrix b = this->GetMatrix();
+  double       smallest = 1e30;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    smallest = std::min<double>(smallest, std::abs(this->Get<float>(Spacings + 4 * (axis + 1))));
+  }
+  // Both are in single precision, and rounded on the way: a tenth of a voxel is no rounding.
+  double largest = 0.0;
+  for (std::size_t row = 0; row < 3; ++row)
+  {
+    double change = std::abs(a[row][3] - b[row][3]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double count = this->Get<std::uint16_t>(Dimensions + 2 * (axis + 1));
+      change = std::max(change, std::abs(a[row][axis] - b[row][axis]) * count);
+    }
+    largest = std::max(largest, change);
+  }
+  return largest > 0.1 * smallest;
+}
+
+const char *
+NiftiHeader::GetPlacement(const ImageGrid & grid) const
+{
+  // The grid is in millimetres, in a space whose first two axes point the other way.
+  const double millimetres = grid.Spacing[0] / std::abs(this->Get<float>(Spacings + 4));
+  const auto   getDistance = [&](const Matrix & matrix) {
+    double distance = 0.0;
+    for (std::size_t row = 0; row < 3 && row < grid.Origin.size(); ++row)
+    {
+      const double sign = row < 2 ? -1.0 : 1.0;
+      distance += std::abs(sign * millimetres * matrix[row][3] - grid.Origin[row]);
+      for (std::size_t axis = 0; axis < 3 && axis < grid.Size.size(); ++axis)
+      {
+        distance += std::abs(sign * millimetres * matrix[row][axis] - grid.Spacing[axis] * grid.Directions[axis][row]);
+      }
+    }
+    return distance;
+  };
+  return getDistance(this->GetMatrix()) < getDistance(this->GetQuaternionMatrix()) ? "sform" : "qform";
+}

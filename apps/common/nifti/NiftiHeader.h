@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef NiftiHeader_h
+#define NiftiHeader_h
+
+#include "volumes/ImageDescription.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+/** Numbers of the header of a NIfTI-1 file, or of an Analyze one, in either byte order. */
+class NiftiHeader
+{
+public:
+  /** Reads what is there of it, compressed or not. */
+  explicit NiftiHeader(const std::string & path);
+
+  /** Whether it is a header of version 1 at all, and its voxels follow in the same file. */
+  bool
+  IsSingleFile() const;
+
+  /** Whether it is a header of version 1 or of Analyze at all: both start with their size. */
+  bool
+  IsOfPair() const;
+
+  /** Whether it is a header of version 2. */
+  bool
+  IsOfVersion2() const;
+
+  /** Bytes before the voxels. */
+  std::uint64_t
+  GetDataOffset() const;
+
+  std::uint64_t
+  GetDataBytes() const;
+
+  /** What of it readers take in different ways, so that none can be right; empty if nothing. */
+  std::string
+  FindFault() const;
+
+  /** Whether it places the voxels twice, by a quaternion (qform) and by a matrix (sform), at different places. */
+  bool
+  IsPlacedTwice() const;
+
+  /** Which of the two placements, qform or sform, a grid has. */
+  const char *
+  GetPlacement(const ImageGrid & grid) const;
+
+private:
+  using Matrix = std::array<std::array<double, 4>, 3>;
+
+  template <typename T>
+  T
+  Get(std::size_t offset) const;
+  Matrix
+  GetQuaternionMatrix() const;
+  Matrix
+  GetMatrix() const;
+
+  static constexpr std::size_t Size = 348;
+  std::array<char, Size>       m_Bytes{};
+  bool                         m_IsComplete = false;
+  bool                         m_IsSwapped = false;
+};
+
+#endif

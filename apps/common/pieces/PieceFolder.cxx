@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pieces/PieceFolder.h"
+#include "pieces/AgreementText.h"
+#include "system/FinishLock.h"
+#include "system/Interrupt.h"
+#include "pieces/PieceMark.h"
+#include "outputs/StagedFolder.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+constexpr const char * AgreementName = "agreement";
+constexpr const char * PiecesKey = "number of pieces";
+constexpr const char * IdentityKey = "identity";
+
+fs::path
+GetFolder(const fs::path & output)
+{
+  return output.parent_path() / ("." + output.filename().string() + ".pieces");
+}
+
+/** What tells a file or folder from one that takes its name later; it stays when it is renamed. */
+std::string
+GetIdentity(const fs::path & path)
+{
+  struct stat status = {};
+  return stat(path.c_str(), &status) == 0 ? std::to_string(status.st_ino) : "";
+}
+
+/** A new folder for this process, whose name starts so. Empty, with the reason in errno, if it cannot be made. */
+fs::path
+MakeUniqueFolder(const fs::path & start)
+{
+  std::string pattern = start.string() + "XXXXXX";
+  if (mkdtemp(pattern.data()) == nullptr)
+  {
+    return {};
+  }
+  // Others may be other users of the group.
+  const mode_t mask = umask(0);
+  umask(mask);
+  chmod(pattern.c_str(), 0777 & ~mask);
+  return pattern;
+}
+
+std::optional<unsigned int>
+ParseNumber(const std::string & text)
+{
+  std::istringstream stream(text);
+  unsigned int       number = 0;
+  return stream >> number ? std::optional<unsigned int>(number) : std::nullopt;
+}
+
+/** Writes a small file that is there whole or not at all. \return 0, or the error */
+int
+WriteAtOnce(const fs::path & unnamed, const fs::path & path, const std::string & text)
+{
+  std::ofstream(unnamed, std::ios::binary) << text;
+  std::error_code error;
+  if (fs::file_size(unnamed, error) != text.size() || error)
+  {
+    return error ? error.value() : ENOSPC;
+  }
+  const int failure = BringToDisk(unnamed);
+  return failure != 0 ? failure : rename(unnamed.c_str(), path.c_str()) == 0 ? 0 : errno;
+}
+} // namespace
+
+PieceFolder::PieceFolder(const fs::path & output, const unsigned int pieces)
+  : m_Output(output)
+  , m_Folder(GetFolder(output))
+  , m_Pieces(pieces)
+{}
+
+PieceFolder::~PieceFolder()
+{
+  if (m_Agreement >= 0)
+  {
+    close(m_Agreement);
+  }
+  if (!m_Temporary.empty())
+  {
+    RemoveTemporaryFolder(HoldInterrupts(), m_Temporary);
+  }
+}
+
+void
+PieceFolder::Fail(const std::string & reason) const
+{
+  throw std::runtime_error("cannot write " + m_Output.string() + ": " + reason);
+}
+
+std::optional<unsigned int>
+PieceFolder::FindNumberOfPieces(const fs::path & output)
+{
+  return ParseNumber(Find(ReadAgreement(GetFolder(output) / AgreementName), PiecesKey));
+}
+
+std::optional<unsigned int>
+PieceFolder::FindNumberOfCompletePieces(const fs::path & output)
+{
+  return ParseNumber(Find(ParseAgreement(ReadMark(output)), PiecesKey));
+}
+
+bool
+PieceFolder::TryToJoin(const PieceAgreement & agreement)
+{
+  m_Agreement = open((m_Folder / AgreementName).c_str(), O_RDWR | O_CLOEXEC);
+  if (m_Agreement < 0)
+  {
+    return false;
+  }
+  const PieceAgreement theirs = ReadAgreement(m_Folder / AgreementName);
+  m_Identity = Find(theirs, IdentityKey);
+  for (const auto & [key, value] : agreement)
+  {
+    const std::string other = Find(theirs, key);
+    if (other != MakeOneWord(value))
+    {
+      this->Fail("its pieces are being made with another " + key + ": " + (other.empty() ? "none" : other) + ", not " +
+                 MakeOneWord(value) + "; to begin anew, remove " + m_Folder.string());
+    }
+  }
+  return true;
+}
+
+/** What is begun appears at once, whole. */
+void
+PieceFolder::Begin(const PieceAgreement & agreement, const PieceWriter & writer)
+{
+  {
+    const auto lock = HoldInterrupts();
+    m_Temporary = MakeUniqueFolder(m_Folder.string() + ".");
+    if (m_Temporary.empty())
+    {
+      this->Fail(std::strerror(errno));
+    }
+    RemoveWhenInterrupted(lock, m_Temporary, m_Output);
+  }
+  for (const char * const name : { "output", "notes", "temporary" })
+  {
+    fs::create_directory(m_Temporary / name);
+  }
+  writer.LayOut(m_Temporary / "output");
+  const std::string text =
+    Compose(agreement) + IdentityKey + (": " + GetIdentity(m_Temporary / "output" / m_Output.filename())) + "\n";
+  const int error = WriteAtOnce(m_Temporary / "unnamed", m_Temporary / AgreementName, text);
+  if (error != 0)
+  {
+    this->Fail(std::strerror(error));
+  }
+  const auto lock = HoldInterrupts();
+  // It fails where another process was faster, since the folder is not empty.
+  if (rename(m_Temporary.c_str(), m_Folder.c_str()) != 0)
+  {
+    RemoveTemporaryFolder(lock, m_Temporary);
+  }
+  else
+  {
+    RemoveWhenInterrupted(lock, {}, {});
+  }
+  m_Temporary.clear();
+}
+
+bool
+PieceFolder::Join(const PieceAgreement & agreement, const PieceWriter & writer)
+{
+  constexpr int most = 10; // others may come and go in between
+  for (int i = 0; i < most; ++i)
+  {
+    if (this->TryToJoin(agreement))
+    {
+      return true;
+    }
+    if (ReadMark(m_Output) == Compose(agreement))
+    {
+      return false;
+    }
+    this->Begin(agreement, writer);
+  }
+  this->Fail("the folder " + m_Folder.string() + " is not one of pieces; remove it");
+}
+
+fs::path
+PieceFolder::GetOutputFolder() const
+{
+  return m_Folder / "output";
+}
+
+const fs::path &
+PieceFolder::MakeTemporaryFolder()
+{
+  const auto lock = HoldInterrupts();
+  m_Temporary = MakeUniqueFolder(m_Folder / "temporary" / "");
+  if (m_Temporary.empty())
+  {
+    this->Fail(std::strerror(errno));
+  }
+  RemoveWhenInterrupted(lock, m_Temporary, {});
+  return m_Temporary;
+}
+
+std::optional<std::uint32_t>
+PieceFolder::FindNote(const unsigned int piece) const
+{
+  const fs::path path = m_Folder / "notes" / std::to_string(piece);
+  errno = 0;
+  std::ifstream file(path);
+  std::uint32_t checksum = 0;
+  if (file >> checksum)
+  {
+    return checksum;
+  }
+  // Not asked again: another process may have noted it since.
+  if (!file.is_open() && (errno == ENOENT || errno == ENOTDIR))
+  {
+    return std::nullopt;
+  }
+  this->Fail("it is not known whether piece " + std::to_string(piece) + " is done: " + path.string() +
+             " cannot be read");
+}
+
+void
+PieceFolder::Note(const unsigned int piece, const std::uint32_t checksum)
+{
+  const int error =
+    WriteAtOnce(m_Temporary / "note", m_Folder / "notes" / std::to_string(piece), std::to_string(checksum) + "\n");
+  if (error != 0)
+  {
+    this->Fail("piece " + std::to_string(piece) + " is done, but cannot be noted: " + std::strerror(error));
+  }
+}
+
+std::vector<unsigned int>
+PieceFolder::FindMissing() const
+{
+  std::vector<unsigned int> missing;
+  for (unsigned int piece = 1; piece <= m_Pieces; ++piece)
+  {
+    if (!this->FindNote(piece))
+    {
+      missing.push_back(piece);
+    }
+  }
+  return missing;
+}
+
+bool
+PieceFolder::IsFinished() const
+{
+  return !m_Identity.empty() && GetIdentity(m_Output) == m_Identity;
+}
+
+bool
+PieceFolder::IsFinishedByAnother() const
+{
+  const FinishLock lock(m_Agreement, m_Folder);
+  return this->IsFinished();
+}
+
+bool
+PieceFolder::Finish(const PieceWriter & writer)
+{
+  if (!this->FindMissing().empty())
+  {
+    return this->IsFinished();
+  }
+  const FinishLock alone(m_Agreement, m_Folder);
+  struct stat      joined = {};
+  fstat(m_Agreement, &joined);
+  const bool isStillThere = GetIdentity(m_Folder / AgreementName) == std::to_string(joined.st_ino);
+  if (isStillThere && !this->IsFinished())
+  {
+    this->Complete(writer);
+  }
+  if (!this->IsFinished())
+  {
+    this->Fail("another process has replaced or removed it");
+  }
+  if (isStillThere)
+  {
+    this->Remove();
+  }
+  return true;
+}
+
+void
+PieceFolder::Complete(const PieceWriter & writer) const
+{
+  const fs::path written = this->GetOutputFolder() / m_Output.filename();
+  if (GetIdentity(written) != m_Identity)
+  {
+    this->Fail("its pieces were all done, but it has been replaced or removed since; to begin anew, remove " +
+               m_Folder.string());
+  }
+  writer.CheckAll(this->GetOutputFolder());
+  PieceAgreement agreement = ReadAgreement(m_Folder / AgreementName);
+  agreement.pop_back(); // the identity
+  MarkAsComplete(written, Compose(agreement));
+  const std::optional<fs::path> oldData = writer.FindOldData();
+  const auto                    lock = HoldInterrupts();
+  this->GiveNames(writer);
+  if (oldData)
+  {
+    std::error_code ignored;
+    fs::remove(*oldData, ignored);
+  }
+}
+
+void
+PieceFolder::GiveNames(const PieceWriter & writer) const
+{
+  const fs::path folder = this->GetOutputFolder();
+  for (const fs::directory_entry & entry : fs::directory_iterator(folder))
+  {
+    struct stat old = {};
+    if (stat((m_Output.parent_path() / entry.path().filename()).c_str(), &old) == 0)
+    {
+      chmod(entry.path().c_str(), old.st_mode & 07777);
+    }
+    if (const int error = BringToDisk(entry.path()); error != 0)
+    {
+      this->Fail(std::strerror(error));
+    }
+  }
+  if (const auto pair = writer.FindPair(folder))
+  {
+    ::GiveNames(*pair);
+    return;
+  }
+  std::error_code unknown;
+  const fs::path  from = folder / m_Output.filename();
+  const int       error = fs::is_directory(m_Output, unknown)           ? ExchangeNames(from, m_Output)
+                          : rename(from.c_str(), m_Output.c_str()) == 0 ? 0
+                                                                        : errno;
+  if (error != 0)
+  {
+    this->Fail(std::strerror(error));
+  }
+  BringToDisk(m_Output.parent_path());
+}
+
+/** Under another name first, so that nobody joins what is going. */
+void
+PieceFolder::Remove() const
+{
+  fs::path        going = MakeUniqueFolder(m_Folder.string() + ".");
+  const auto      lock = HoldInterrupts();
+  std::error_code error;
+  if (going.empty()) // the disk is full, perhaps
+  {
+    fs::remove(m_Folder / AgreementName, error);
+    going = m_Folder;
+  }
+  else
+  {
+    rename(m_Folder.c_str(), going.c_str());
+  }
+  RemoveWhenInterrupted(lock, going, {});
+  RemoveTemporaryFolder(lock, going);
+}

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plain/RawReader.h"
+#include "volumes/GridOverrides.h"
+#include "system/InputFile.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+using itk::Subdivision::Box;
+using itk::Subdivision::ElementType;
+
+namespace
+{
+[[noreturn]] void
+FailToParse(const std::string & text, const std::string & reason)
+{
+  throw std::invalid_argument('\'' + text + "': " + reason + "; an example is 1024x1024x800:uint16");
+}
+
+std::uint64_t
+ParseNumber(const std::string & text, const std::string & number)
+{
+  if (number.empty() || number.size() > 18 || number.find_first_not_of("0123456789") != std::string::npos)
+  {
+    FailToParse(text, '\'' + number + "' is no number");
+  }
+  return std::stoull(number);
+}
+
+std::vector<std::string>
+SplitAt(const std::string & text, char separator)
+{
+  std::vector<std::string> parts(1);
+  for (const char character : text)
+  {
+    if (character == separator)
+    {
+      parts.emplace_back();
+    }
+    else
+    {
+      parts.back() += character;
+    }
+  }
+  return parts;
+}
+
+ElementType
+ParseType(const std::string & text, const std::string & name)
+{
+  static const std::map<std::string, ElementType> aliases = { { "float32", ElementType::Float },
+                                                              { "float64", ElementType::Double } };
+  std::string                                     names;
+  for (int i = 0; i <= static_cast<int>(ElementType::Double); ++i)
+  {
+    const auto type = static_cast<ElementType>(i);
+    if (name == itk::Subdivision::GetName(type))
+    {
+      return type;
+    }
+    names += std::string(i == 0 ? "" : ", ") + itk::Subdivision::GetName(type);
+  }
+  const auto alias = aliases.find(name);
+  if (alias == aliases.end())
+  {
+    FailToParse(text, "the type '" + name + "' is none of " + names);
+  }
+  return alias->second;
+}
+
+/** Bytes of all voxels; what does not fit 63 bits is refused. */
+std::uint64_t
+CountBytes(const std::string & text, const RawLayout & layout)
+{
+  std::uint64_t bytes = layout.NumberOfComponents * itk::Subdivision::SizeOf(layout.Component);
+  for (const std::uint64_t size : layout.Size)
+  {
+    if (size == 0)
+    {
+      FailToParse(text, "sizes are greater than 0");
+    }
+    if (bytes > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()) / size)
+    {
+      FailToParse(text, "no file is as large as that");
+    }
+    bytes *= size;
+  }
+  return bytes;
+}
+
+class RawReader : public VolumeReader
+{
+public:
+  RawReader(const std::string & path, const InputOptions & options, const WarningSink & warn)
+    : m_File(path)
+  {
+    if (!options.Raw)
+    {
+      throw std::runtime_error("cannot read " + path +
+                               ": it has no header; --raw 1024x1024x800:uint16 says what it holds");
+    }
+    m_Layout = *options.Raw;
+    const std::size_t axes = m_Layout.Size.size();
+    m_Description.Component = m_Layout.Component;
+    m_Description.NumberOfComponents = m_Layout.NumberOfComponents;
+    m_Description.Kind = m_Layout.NumberOfComponents > 1 ? VoxelKind::Vector : VoxelKind::Scalar;
+    m_Description.Format = "raw";
+    m_Description.Grid.Size = m_Layout.Size;
+    m_Description.Grid.Spacing.assign(axes, 1.0);
+    m_Description.Grid.Origin.assign(axes, 0.0);
+    for (std::size_t axis = 0; axis < axes; ++axis)
+    {
+      m_Description.Grid.Directions.emplace_back(axes, 0.0);
+      m_Description.Grid.Directions.back()[axis] = 1.0;
+    }
+    const std::uint64_t voxels = m_Description.GetNumberOfVoxels() * m_Description.GetVoxelBytes();
+    if (m_File.GetSize() < m_Layout.HeaderBytes || m_File.GetSize() - m_Layout.HeaderBytes != voxels)
+    {
+      throw std::runtime_error("cannot read " + path + ": it has " + std::to_string(m_File.GetSize()) +
+                               " bytes, but --raw says " + std::to_string(m_Layout.HeaderBytes) + " + " +
+                               std::to_string(voxels));
+    }
+    ApplyOverrides(m_Description, options, warn, false);
+  }
+
+  bool
+  ReadsParts() const override
+  {
+    return true;
+  }
+
+  std::uint64_t
+  GetScratchBytes(std::uint64_t) const override
+  {
+    return 0;
+  }
+
+  void
+  Read(const Box & box, void * voxels) override
+  {
+    auto *            to = static_cast<unsigned char *>(voxels);
+    const std::size_t axes = box.size();
+    // As many axes as are read whole make one run of bytes.
+    std::size_t   axis = 0;
+    std::uint64_t run = 1;
+    do
+    {
+      run *= box[axis].Size;
+      ++axis;
+    } while (axis < axes && box[axis - 1].Size == m_Layout.Size[axis - 1]);
+    const std::uint64_t        runBytes = run * m_Description.GetVoxelBytes();
+    std::vector<std::uint64_t> index(axes, 0);
+    bool                       isDone = false;
+    while (!isDone)
+    {
+      this->ReadRun(box, index, to, runBytes);
+      to += runBytes;
+      isDone = true;
+      for (std::size_t i = axis; isDone && i < axes; ++i)
+      {
+        index[i] = (index[i] + 1) % box[i].Size;
+        isDone = index[i] == 0;
+      }
+    }
+  }
+
+private:
+  void
+  ReadRun(const Box & box, const std::vector<std::uint64_t> & index, unsigned char * to, std::uint64_t bytes) const
+  {
+    std::uint64_t voxel = 0;
+    for (std::size_t axis = box.size(); axis-- > 0;)
+    {
+      voxel = voxel * m_Layout.Size[axis] + static_cast<std::uint64_t>(box[axis].First) + index[axis];
+    }
+    m_File.ReadAt(m_Layout.HeaderBytes + voxel * m_Description.GetVoxelBytes(), to, bytes);
+    const std::uint16_t one = 1;
+    const bool          isMachineBig = *reinterpret_cast<const unsigned char *>(&one) == 0;
+    const std::size_t   elementBytes = itk::Subdivision::SizeOf(m_Layout.Component);
+    for (std::uint64_t i = 0; m_Layout.IsBigEndian != isMachineBig && i < bytes; i += elementBytes)
+    {
+      std::reverse(to + i, to + i + elementBytes);
+    }
+  }
+
+  InputFile m_File;
+  RawLayout m_Layout;
+};
+} // namespace
+
+RawLayout
+ParseRawLayout(const std::string & text)
+{
+  RawLayout         layout;
+  std::string       rest = text;
+  const std::size_t plus = text.find('+');
+  if (plus != std::string::npos)
+  {
+    layout.HeaderBytes = ParseNumber(text, text.substr(plus + 1));
+    rest = text.substr(0, plus);
+  }
+  const std::vector<std::string> parts = SplitAt(rest, ':');
+  if (parts.size() < 2)
+  {
+    FailToParse(text, "a type is missing after the sizes");
+  }
+  for (const std::string & size : SplitAt(parts[0], 'x'))
+  {
+    layout.Size.push_back(ParseNumber(text, size));
+  }
+  if (layout.Size.size() < 2 || layout.Size.size() > 4)
+  {
+    FailToParse(text, "2 to 4 sizes are needed");
+  }
+  layout.Component = ParseType(text, parts[1]);
+  for (std::size_t i = 2; i < parts.size(); ++i)
+  {
+    const bool isNumber = !parts[i].empty() && parts[i].find_first_not_of("0123456789") == std::string::npos;
+    if (parts[i] == "big" || parts[i] == "little")
+    {
+      layout.IsBigEndian = parts[i] == "big";
+    }
+    else if (isNumber && parts[i].size() < 5 && parts[i] != std::string(parts[i].size(), '0'))
+    {
+      layout.NumberOfComponents = static_cast<unsigned int>(ParseNumber(text, parts[i]));
+    }
+    else
+    {
+      FailToParse(text, "'" + parts[i] + "' is neither big, little nor a number of components");
+    }
+  }
+  CountBytes(text, layout);
+  return layout;
+}
+
+std::unique_ptr<VolumeReader>
+OpenRaw(const std::string & path, const InputOptions & options, const WarningSink & warn)
+{
+  return std::make_unique<RawReader>(path, options, warn);
+}

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slices/SliceNames.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+bool
+IsDigit(char character)
+{
+  return character >= '0' && character <= '9';
+}
+
+/** A file's name in parts: texts and runs of digits in turns, a text first, without the ending. */
+struct SplitName
+{
+  fs::path                 File;
+  std::vector<std::string> Texts;
+  std::vector<std::string> Digits; // the run after each text; the last may be empty
+  std::uint64_t            Number = 0;
+};
+
+[[noreturn]] void
+Fail(const fs::path & folder, const std::string & reason)
+{
+  throw std::runtime_error("cannot read the folder " + folder.string() + ": " + reason);
+}
+
+SplitName
+Split(const fs::path & file)
+{
+  SplitName         split{ file, {}, {}, 0 };
+  const std::string stem = file.stem().string();
+  for (auto next = stem.begin(); next != stem.end() || split.Texts.empty();)
+  {
+    const auto digits = std::find_if(next, stem.end(), IsDigit);
+    const auto end = std::find_if_not(digits, stem.end(), IsDigit);
+    split.Texts.emplace_back(next, digits);
+    split.Digits.emplace_back(digits, end);
+    next = end;
+  }
+  return split;
+}
+
+std::string
+FormatOf(const fs::path & file)
+{
+  static const std::map<std::string, std::string> formats = { { ".tif", "TIFF" }, { ".tiff", "TIFF" },
+                                                              { ".png", "PNG" },  { ".bmp", "BMP" },
+                                                              { ".jpg", "JPEG" }, { ".jpeg", "JPEG" } };
+  std::string                                     ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto found = formats.find(ending);
+  return found == formats.end() ? "" : found->second;
+}
+
+std::string
+WithoutZeros(const std::string & digits)
+{
+  const auto first = digits.find_first_not_of('0');
+  return first == std::string::npos ? "0" : digits.substr(first);
+}
+
+/** The run of digits in which the names differ. */
+std::size_t
+FindNumber(const fs::path & folder, const std::vector<SplitName> & names)
+{
+  std::size_t       varying = names.front().Digits.size();
+  const SplitName & first = names.front();
+  for (const SplitName & name : names)
+  {
+    if (name.Texts != first.Texts || name.Digits.back().empty() != first.Digits.back().empty())
+    {
+      Fail(folder,
+           "it holds slices of several series, such as " + first.File.filename().string() + " and " +
+             name.File.filename().string() + "; put each series into a folder of its own");
+    }
+    for (std::size_t run = 0; run < first.Digits.size(); ++run)
+    {
+      if (WithoutZeros(name.Digits[run]) == WithoutZeros(first.Digits[run]))
+      {
+        continue;
+      }
+      if (varying < first.Digits.size() && run != varying)
+      {
+        Fail(folder,
+             "its names differ in more than one number, such as " + first.File.filename().string() + " and " +
+               name.File.filename().string() + "; put each series into a folder of its own");
+      }
+      varying = run;
+    }
+  }
+  return varying;
+}
+
+/** Sorts by the number and takes care that it is one for each file. */
+void
+SortByNumber(const fs::path & folder, std::vector<SplitName> & names, std::size_t run)
+{
+  for (SplitName & name : names)
+  {
+    const std::string digits = run < name.Digits.size() ? WithoutZeros(name.Digits[run]) : "0";
+    const std::string before = run < name.Digits.size() ? name.Texts[run] : "";
+    if (digits.size() > 18)
+    {
+      Fail(folder, "the number of " + name.File.filename().string() + " has more than 18 digits");
+    }
+    if (before == "-" || (before.size() > 1 && before.compare(before.size() - 2, 2, "_-") == 0))
+    {
+      Fail(folder, "the number of " + name.File.filename().string() + " may be negative; number the slices from 0");
+    }
+    name.Number = std::stoull(digits);
+  }
+  std::sort(names.begin(), names.end(), [](const auto & a, const auto & b) {
+    return a.Number != b.Number ? a.Number < b.Number : a.File < b.File;
+  });
+  const auto twice =
+    std::adjacent_find(names.begin(), names.end(), [](const auto & a, const auto & b) { return a.Number == b.Number; });
+  if (twice != names.end())
+  {
+    Fail(folder,
+         twice->File.filename().string() + " and " + std::next(twice)->File.filename().string() +
+           " have the same number");
+  }
+}
+
+void
+WarnOfGaps(const fs::path & folder, const std::vector<SplitName> & names, const WarningSink & warn)
+{
+  std::uint64_t step = 0;
+  for (std::size_t i = 1; i < names.size(); ++i)
+  {
+    step = std::gcd(step, names[i].Number - names[i - 1].Number);
+  }
+  std::uint64_t missing = 0;
+  std::string   list;
+  for (std::size_t i = 1; i < names.size(); ++i)
+  {
+    const std::uint64_t absent = (names[i].Number - names[i - 1].Number) / step - 1;
+    for (std::uint64_t k = 1; k <= absent && missing + k <= 5; ++k)
+    {
+      list += (list.empty() ? "" : ", ") + std::to_string(names[i - 1].Number + k * step);
+    }
+    missing += absent;
+  }
+  if (missing > 0)
+  {
+    warn("the folder " + folder.string() + " lacks the slices with the numbers " + list +
+         (missing > 5 ? " and " + std::to_string(missing - 5) + " others" : "") +
+         ": those that are there are taken for neighbours");
+  }
+  if (step > 1)
+  {
+    warn("the slices of the folder " + folder.string() + " are numbered in steps of " + std::to_string(step) +
+         ": they are taken for neighbours");
+  }
+}
+} // namespace
+
+SliceList
+ListSlices(const fs::path & folder, const WarningSink & warn)
+{
+  std::error_code        error;
+  std::vector<SplitName> names;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+  {
+    const fs::path  file = entry->path();
+    std::error_code ignored;
+    if (file.filename().string().front() != '.' && !FormatOf(file).empty() && !fs::is_directory(file, ignored))
+    {
+      names.push_back(Split(file));
+    }
+  }
+  if (error)
+  {
+    Fail(folder, error.message());
+  }
+  if (names.empty())
+  {
+    return {};
+  }
+  // The messages depend on the names alone, not on the order in which the file system lists them.
+  std::sort(names.begin(), names.end(), [](const auto & a, const auto & b) { return a.File < b.File; });
+  SliceList list{ FormatOf(names.front().File), {} };
+  for (const SplitName & name : names)
+  {
+    if (FormatOf(name.File) != list.Format)
+    {
+      Fail(folder,
+           "it holds images of several formats, such as " + names.front().File.filename().string() + " and " +
+             name.File.filename().string() + "; put those that are slices of one volume into a folder of their own");
+    }
+  }
+  SortByNumber(folder, names, FindNumber(folder, names));
+  WarnOfGaps(folder, names, warn);
+  for (const SplitName & name : names)
+  {
+    list.Files.push_back(name.File);
+  }
+  return list;
+}

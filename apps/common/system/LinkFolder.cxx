@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "system/LinkFolder.h"
+#include "system/Interrupt.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+
+namespace fs = std::filesystem;
+
+std::shared_ptr<LinkFolder>
+LinkFolder::Get()
+{
+  static std::weak_ptr<LinkFolder> current;
+  auto                             folder = current.lock();
+  if (folder == nullptr)
+  {
+    folder = std::shared_ptr<LinkFolder>(new LinkFolder);
+    current = folder;
+  }
+  return folder;
+}
+
+LinkFolder::LinkFolder()
+{
+  std::string pattern = (fs::temp_directory_path() / ".links-XXXXXX").string();
+  const auto  lock = HoldInterrupts();
+  if (mkdtemp(pattern.data()) == nullptr)
+  {
+    throw std::runtime_error("cannot make a temporary folder in " + fs::temp_directory_path().string() + ": " +
+                             std::strerror(errno));
+  }
+  m_Folder = pattern;
+  GetRunRecord().LinkFolder.Set(m_Folder);
+}
+
+LinkFolder::~LinkFolder()
+{
+  std::error_code error;
+  const auto      lock = HoldInterrupts();
+  fs::remove_all(m_Folder, error);
+  GetRunRecord().LinkFolder.Set({});
+}
+
+std::string
+LinkFolder::Link(const std::string & file, const std::string & ending)
+{
+  const fs::path link = m_Folder / ("image" + std::to_string(m_Count++) + ending);
+  fs::create_symlink(fs::absolute(file), link);
+  return link.string();
+}

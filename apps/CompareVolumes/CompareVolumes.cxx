@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // CompareVolumes REFERENCE TEST: how far a volume is from a reference, as text or as JSON.
 
-#include "commandline/CommandLine.h"
 #include "Figures.h"
-#include "itk/FileIntegrity.h"
 #include "GridComparison.h"
-#include "system/LibraryMessages.h"
-#include "text/OneLineMessage.h"
+#include "commandline/CommandLine.h"
 #include "commandline/Warnings.h"
-#include "system/WatchedRun.h"
+#include "formats/OpenVolume.h"
+#include "itk/FileIntegrity.h"
+#include "system/process/LibraryMessages.h"
+#include "system/process/Terminal.h"
+#include "system/process/WatchedRun.h"
+#include "text/OneLineMessage.h"
 
 #include "itkMacro.h"
 

@@ -2,10 +2,12 @@
 // ExtractSlice INPUT OUTPUT: writes the middle slice of a volume, or of the first volume of a series in time, as float.
 // INPUT is an image file, or a folder with a DICOM series or with slices.
 
+#include "formats/CreateVolume.h"
+#include "formats/OpenVolume.h"
+#include "system/process/WatchedRun.h"
 #include "text/OneLineMessage.h"
 #include "volumes/RealVoxels.h"
 #include "volumes/VolumeWriter.h"
-#include "system/WatchedRun.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -2,10 +2,10 @@
 #ifndef LevelChain_h
 #define LevelChain_h
 
-#include "volumes/ImageDescription.h"
 #include "Options.h"
-#include "system/PageBuffer.h"
 #include "Pieces.h"
+#include "system/process/PageBuffer.h"
+#include "volumes/ImageDescription.h"
 
 #include "NonOscillatorySubdivision/Subdivider.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Options.h"
 
-#include "commandline/CommandLine.h"
 #include "SlicerDescription.h"
+#include "commandline/CommandLine.h"
 
 #include "NonOscillatorySubdivision/LabelSubdivider.h"
 #include "NonOscillatorySubdivision/Scheme.h"

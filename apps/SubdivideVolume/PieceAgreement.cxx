@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PieceAgreement.h"
 
-#include "system/FileState.h"
 #include "SlicerDescription.h"
+#include "system/files/FileState.h"
 
 #include "NonOscillatorySubdivision/Target.h"
 

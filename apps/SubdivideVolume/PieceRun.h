@@ -3,8 +3,8 @@
 #define PieceRun_h
 
 #include "Options.h"
-#include "pieces/PieceWriter.h"
 #include "Pieces.h"
+#include "pieces/PieceWriter.h"
 
 #include <vector>
 

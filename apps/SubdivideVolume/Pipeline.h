@@ -4,12 +4,12 @@
 
 #include "Channel.h"
 #include "LevelChain.h"
-#include "system/PageBuffer.h"
 #include "Plan.h"
 #include "Progress.h"
+#include "VoxelCounter.h"
+#include "system/process/PageBuffer.h"
 #include "volumes/VolumeReader.h"
 #include "volumes/VolumeWriter.h"
-#include "VoxelCounter.h"
 
 #include <atomic>
 #include <exception>

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Plan.h"
+#include "system/process/MachineMemory.h"
 
 #include <algorithm>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
-
-#include <unistd.h>
 
 namespace
 {
@@ -20,24 +18,6 @@ constexpr std::uint64_t SpareBytes = 24 << 20;
  * or planes, since each needs what lies around it. */
 constexpr std::uint64_t GoodPieceBytes = 32 << 20;
 constexpr std::uint64_t GoodPieceDepth = 64;
-
-/** What the process occupies now. */
-std::uint64_t
-GetResidentBytes()
-{
-  std::ifstream           statistics("/proc/self/statm");
-  std::uint64_t           size = 0;
-  std::uint64_t           resident = 0;
-  constexpr std::uint64_t guess = 100000000; // where there is no such file
-  return statistics >> size >> resident ? resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : guess;
-}
-
-/** The memory of this machine. */
-std::uint64_t
-GetMachineBytes()
-{
-  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
 
 class Planner
 {

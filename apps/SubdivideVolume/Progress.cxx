@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Progress.h"
-#include "system/LibraryMessages.h"
+#include "system/process/Terminal.h"
 
 #include <algorithm>
 #include <cstdio>

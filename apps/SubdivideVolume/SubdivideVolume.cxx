@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Doubles the resolution of an image. See SubdivideVolume --help.
 
-#include "commandline/CommandLine.h"
-#include "dicom/Dicom.h"
-#include "itk/FileIntegrity.h"
-#include "system/FileState.h"
 #include "FormatTable.h"
 #include "LevelChain.h"
-#include "system/LibraryMessages.h"
-#include "headers/Metadata.h"
-#include "text/OneLineMessage.h"
 #include "Options.h"
 #include "PieceAgreement.h"
-#include "pieces/PieceFolder.h"
 #include "PieceRun.h"
 #include "Pipeline.h"
 #include "Plan.h"
@@ -20,15 +12,25 @@
 #include "SlicerDescription.h"
 #include "Summary.h"
 #include "VoxelCounter.h"
+#include "commandline/CommandLine.h"
 #include "commandline/Warnings.h"
-#include "system/WatchedRun.h"
+#include "dicom/Dicom.h"
+#include "formats/CreateVolume.h"
+#include "formats/OpenVolume.h"
+#include "headers/Metadata.h"
+#include "itk/FileIntegrity.h"
+#include "pieces/PieceFolder.h"
+#include "system/files/FileState.h"
+#include "system/process/LibraryMessages.h"
+#include "system/process/Terminal.h"
+#include "system/process/WatchedRun.h"
+#include "text/LibraryWarnings.h"
+#include "text/OneLineMessage.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <new>
-
-#include <unistd.h>
 
 namespace fs = std::filesystem;
 
@@ -52,7 +54,7 @@ GetProgressStyle(const Options & options)
   {
     return Progress::Style::None;
   }
-  return isatty(fileno(GetTerminal())) ? Progress::Style::Bar : Progress::Style::Lines;
+  return IsSeenByUser() ? Progress::Style::Bar : Progress::Style::Lines;
 }
 
 /** \throw std::runtime_error if the folder that is to be replaced is what is read, or holds it */

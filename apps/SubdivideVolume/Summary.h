@@ -2,10 +2,10 @@
 #ifndef Summary_h
 #define Summary_h
 
-#include "volumes/ImageDescription.h"
 #include "Options.h"
 #include "Plan.h"
 #include "Statistics.h"
+#include "volumes/ImageDescription.h"
 
 #include <string>
 #include <vector>

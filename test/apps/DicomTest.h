@@ -2,8 +2,8 @@
 #ifndef DicomTest_h
 #define DicomTest_h
 
-#include "dicom/Dicom.h"
 #include "DicomTestData.h"
+#include "dicom/Dicom.h"
 
 #include "gtest/gtest.h"
 

@@ -2,6 +2,7 @@
 // The formats that ITK reads and writes.
 #include "TestFolder.h"
 #include "VolumeTestImages.h"
+#include "formats/CreateVolume.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "system/LibraryMessages.h"
-#include "system/RegularInput.h"
+#include "system/files/RegularInput.h"
+#include "system/process/LibraryMessages.h"
+#include "text/LibraryWarnings.h"
 
 #include "gtest/gtest.h"
 

@@ -2,8 +2,8 @@
 #include "TestFolder.h"
 #include "VolumeTestImages.h"
 
-#include "itk/ItkReader.h"
 #include "headers/Metadata.h"
+#include "itk/ItkReader.h"
 
 #include <gtest/gtest.h>
 

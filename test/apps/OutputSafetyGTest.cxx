@@ -2,6 +2,7 @@
 // Nothing but the output is ever touched, and the output is whole or not there.
 #include "TestFolder.h"
 #include "VolumeTestImages.h"
+#include "formats/CreateVolume.h"
 
 #include <gtest/gtest.h>
 

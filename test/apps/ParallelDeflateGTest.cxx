@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deflate/ParallelDeflate.h"
 
+#include "TestFolder.h"
 #include "deflate/DeflateBlock.h"
 #include "deflate/InflateStream.h"
-#include "TestFolder.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,10 @@
 // MetaImage and NRRD: what is written is what ITK reads, and what ITK writes is what is read.
 #include "TestFolder.h"
 #include "VolumeTestImages.h"
+#include "formats/CreateVolume.h"
 
-#include "text/HeaderText.h"
 #include "itk/ItkReader.h"
+#include "text/HeaderText.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plain/RawReader.h"
 #include "TestFolder.h"
 #include "TiffTestFile.h"
 #include "VolumeTestAccess.h"
+#include "plain/RawReader.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "slices/SliceFolder.h"
 #include "TestFolder.h"
 #include "TiffTestFile.h"
 #include "VolumeTestAccess.h"
+#include "slices/SliceFolder.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TestFolder.h"
-#include "tiff/TiffReader.h"
 #include "TiffTestFile.h"
 #include "VolumeTestAccess.h"
+#include "tiff/TiffReader.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "TestFolder.h"
+#include "VolumeTestAccess.h"
 #include "slices/SliceFolder.h"
 #include "slices/SliceFolderWriter.h"
-#include "TestFolder.h"
 #include "tiff/TiffReader.h"
 #include "tiff/TiffWriter.h"
-#include "VolumeTestAccess.h"
 
 #include <gtest/gtest.h>
 

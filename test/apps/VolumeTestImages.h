@@ -2,6 +2,8 @@
 #ifndef VolumeTestImages_h
 #define VolumeTestImages_h
 
+#include "formats/CreateVolume.h"
+#include "formats/OpenVolume.h"
 #include "volumes/VolumeReader.h"
 #include "volumes/VolumeWriter.h"
 

@@ -3,9 +3,10 @@
 // made in a temporary folder first; of "dicom", the file or folder to read.
 
 #include "dicom/Dicom.h"
-#include "system/Interrupt.h"
-#include "system/LibraryMessages.h"
-#include "system/WatchedRun.h"
+#include "system/process/Interrupt.h"
+#include "system/process/LibraryMessages.h"
+#include "system/process/Terminal.h"
+#include "system/process/WatchedRun.h"
 
 #include <csignal>
 #include <cstdio>

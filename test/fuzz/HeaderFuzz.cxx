@@ -6,11 +6,11 @@
 #include "FuzzBytes.h"
 #include "FuzzFolder.h"
 
-#include "text/HeaderText.h"
 #include "headers/MetaHeader.h"
 #include "headers/NrrdHeader.h"
 #include "headers/PlainHeader.h"
 #include "plain/PlainReader.h"
+#include "text/HeaderText.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,10 +7,10 @@
 
 #include "../../apps/SubdivideVolume/PieceChoice.h"
 #include "commandline/CommandLine.h"
-#include "dicom/DicomGeometry.h"
-#include "text/HeaderText.h"
 #include "deflate/InflateStream.h"
+#include "dicom/DicomGeometry.h"
 #include "plain/RawReader.h"
+#include "text/HeaderText.h"
 #include "tiff/TiffStack.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include "commandline/CommandLine.h"
 
 #include "plain/RawReader.h"
+#include "text/HeaderText.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -12,12 +13,6 @@
 
 namespace
 {
-std::string
-ToLower(std::string text)
-{
-  return CLI::detail::to_lower(std::move(text));
-}
-
 /** Finite numbers with commas between. */
 std::vector<double>
 ParseNumbers(const std::string & text)

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commandline/Warnings.h"
 
-#include "system/LibraryMessages.h"
+#include "system/process/Terminal.h"
 #include "text/OneLineMessage.h"
 
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 void
@@ -17,7 +15,7 @@ Warnings::Add(const std::string & warning)
   m_All.push_back(line);
   if (!m_IsQuiet)
   {
-    std::fprintf(GetTerminal(), "%s: warning: %s\n", program_invocation_short_name, line.c_str());
+    TellUser("warning: " + line);
   }
 }
 

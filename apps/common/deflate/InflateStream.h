@@ -3,8 +3,8 @@
 #define InflateStream_h
 
 #include "deflate/Inflater.h"
-#include "system/InputFile.h"
-#include "headers/PlainLayout.h"
+#include "system/files/FileSection.h"
+#include "system/files/InputFile.h"
 
 #include <cstdint>
 #include <memory>

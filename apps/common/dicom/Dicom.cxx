@@ -3,7 +3,7 @@
 
 #ifdef APPS_HAVE_GDCM
 #  include "dicom/DicomReader.h"
-#  include "system/RegularInput.h"
+#  include "system/files/RegularInput.h"
 #endif
 
 #include <algorithm>

@@ -5,6 +5,7 @@
 #include "volumes/VolumeReader.h"
 
 #include <cstdio>
+#include <memory>
 
 /** A series as --list-series shows it. */
 struct DicomSeriesInfo

@@ -3,22 +3,10 @@
 #define DicomGeometry_h
 
 #include "dicom/DicomSeries.h"
+#include "dicom/DicomSlice.h"
 #include "volumes/VolumeReader.h"
 
 #include <vector>
-
-/** A slice of a volume: a frame of a file. */
-struct DicomSlice
-{
-  const DicomHeader * Header;
-  std::size_t         Frame;
-
-  const DicomFrame &
-  GetFrame() const
-  {
-    return Header->Frames[Frame];
-  }
-};
 
 /** The slices of a regular volume, in the order of their positions along the normal, and the grid they make. */
 struct DicomVolume

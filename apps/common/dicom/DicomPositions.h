@@ -2,7 +2,7 @@
 #ifndef DicomPositions_h
 #define DicomPositions_h
 
-#include "dicom/DicomGeometry.h"
+#include "dicom/DicomSlice.h"
 
 #include <array>
 #include <optional>

@@ -32,4 +32,8 @@ GetVolumeFormats();
 const VolumeFormat *
 FindVolumeFormat(const std::string & path);
 
+/** Opens a file by the one of ITK's readers that its first bytes, or else its name, ask for. */
+std::unique_ptr<VolumeReader>
+OpenByItk(const std::string & path, const InputOptions & options, const WarningSink & warn);
+
 #endif

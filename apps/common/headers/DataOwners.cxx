@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "headers/DataOwners.h"
+#include "system/files/InputFile.h"
 #include "text/HeaderText.h"
-#include "system/InputFile.h"
 
 #include <stdexcept>
 #include <vector>

@@ -2,7 +2,7 @@
 #ifndef MetaFields_h
 #define MetaFields_h
 
-#include "system/InputFile.h"
+#include "system/files/InputFile.h"
 
 #include <cstdint>
 #include <map>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "headers/MetaHeader.h"
 #include "headers/DataFiles.h"
-#include "text/HeaderText.h"
-#include "system/InputFile.h"
 #include "headers/MetaFields.h"
+#include "system/files/InputFile.h"
+#include "text/HeaderText.h"
+#include "volumes/DescriptionCheck.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "headers/Metadata.h"
-#include "text/HeaderText.h"
 #include "headers/MetaFields.h"
 #include "headers/NrrdFields.h"
+#include "text/HeaderText.h"
 
 #include <algorithm>
 #include <regex>

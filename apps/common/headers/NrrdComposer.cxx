@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "text/HeaderText.h"
 #include "headers/NrrdHeader.h"
+#include "text/HeaderText.h"
 
 namespace
 {

@@ -2,7 +2,7 @@
 #ifndef NrrdFields_h
 #define NrrdFields_h
 
-#include "system/InputFile.h"
+#include "system/files/InputFile.h"
 
 #include <cstdint>
 #include <map>

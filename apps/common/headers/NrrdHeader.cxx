@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "headers/NrrdHeader.h"
 #include "headers/DataFiles.h"
-#include "text/HeaderText.h"
-#include "system/InputFile.h"
 #include "headers/NrrdAxes.h"
 #include "headers/NrrdFields.h"
+#include "system/files/InputFile.h"
+#include "text/HeaderText.h"
+#include "volumes/DescriptionCheck.h"
 
 namespace
 {

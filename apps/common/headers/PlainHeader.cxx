@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "headers/PlainHeader.h"
 #include "headers/DataOwners.h"
-#include "text/HeaderText.h"
 #include "headers/MetaHeader.h"
 #include "headers/Metadata.h"
 #include "headers/NrrdHeader.h"
+#include "text/HeaderText.h"
 
 #include <algorithm>
 #include <random>

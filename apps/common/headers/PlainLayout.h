@@ -2,19 +2,11 @@
 #ifndef PlainLayout_h
 #define PlainLayout_h
 
+#include "system/files/FileSection.h"
 #include "volumes/ImageDescription.h"
 
 #include <cstdint>
-#include <string>
 #include <vector>
-
-/** A part of a file. */
-struct FileSection
-{
-  std::string   Path;
-  std::uint64_t Offset = 0;
-  std::uint64_t Size = 0;
-};
 
 /** Where the voxels of an image stand behind a text header: x fastest, one part after the other. */
 struct PlainLayout

@@ -18,9 +18,4 @@ CheckFileIsWhole(const std::string & path, itk::ImageIOBase & imageIO);
 void
 CheckMessages(const std::string & path, const std::string & messages);
 
-/** Counts the numbers of a file that holds its voxels as text.
- * \throw std::runtime_error if there are fewer than the image has */
-void
-CheckTextIsWhole(const std::string & path, const itk::ImageIOBase & imageIO);
-
 #endif

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "itk/ItkReader.h"
 #include "itk/Bitmap.h"
-#include "volumes/BoxRuns.h"
 #include "itk/FileIntegrity.h"
-#include "formats/Formats.h"
-#include "text/HeaderText.h"
-#include "system/InputFile.h"
 #include "itk/JpegIntegrity.h"
+#include "itk/PixelComponent.h"
 #include "nifti/NiftiFiles.h"
 #include "nifti/NiftiHeader.h"
+#include "system/files/InputFile.h"
+#include "system/process/WatchedRun.h"
+#include "text/HeaderText.h"
 #include "text/OneLineMessage.h"
-#include "itk/PixelComponent.h"
-#include "system/WatchedRun.h"
+#include "volumes/BoxRuns.h"
+#include "volumes/DescriptionCheck.h"
 
 #include "itkImageFileReader.h" // registers the formats
 #include "itkMetaDataObject.h"
@@ -177,7 +177,7 @@ GetReason(const std::exception & error)
   return text.rfind(start, 0) == 0 ? text.substr(start.size()) : text;
 }
 
-ItkReader::ItkReader(const std::string & path)
+ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   : m_Path(path)
 {
   const WatchedTask task("cannot read " + path);
@@ -210,12 +210,12 @@ ItkReader::ItkReader(const std::string & path)
   }
   if (m_ImageIO.IsNull())
   {
-    const VolumeFormat * const format = FindVolumeFormat(path);
-    FailToRead(path,
-               (format == nullptr ? std::string("it is in none of the known image formats")
-                                  : "it is no " + std::string(format->Name) +
-                                      " file, or is damaged at its start, and is in none of the other known formats") +
-                 ", which SubdivideVolume --formats lists; --raw reads voxels without a header");
+    FailToRead(
+      path,
+      (meantFormat.empty()
+         ? std::string("it is in none of the known image formats")
+         : "it is no " + meantFormat + " file, or is damaged at its start, and is in none of the other known formats") +
+        ", which SubdivideVolume --formats lists; --raw reads voxels without a header");
   }
   try
   {

@@ -2,7 +2,7 @@
 #ifndef ItkReader_h
 #define ItkReader_h
 
-#include "system/LinkFolder.h"
+#include "itk/LinkFolder.h"
 #include "volumes/VolumeReader.h"
 
 #include "itkImageIOBase.h"
@@ -14,8 +14,9 @@
 class ItkReader : public VolumeReader
 {
 public:
-  /** \throw std::runtime_error that says why the file cannot be read, or is not whole */
-  explicit ItkReader(const std::string & path);
+  /** \param meantFormat the one that the name's ending says, for messages; empty for none
+   * \throw std::runtime_error that says why the file cannot be read, or is not whole */
+  explicit ItkReader(const std::string & path, const std::string & meantFormat = {});
 
   bool
   ReadsParts() const override;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "itk/ItkWriter.h"
-#include "system/CurrentFolder.h"
-#include "text/HeaderText.h"
-#include "system/InputFile.h"
-#include "itk/ItkReader.h"
-#include "headers/Metadata.h"
-#include "nifti/NiftiFiles.h"
-#include "system/OutputFile.h"
 #include "deflate/ParallelDeflate.h"
+#include "headers/Metadata.h"
+#include "itk/ItkReader.h"
 #include "itk/PixelComponent.h"
 #include "itk/WrittenImage.h"
+#include "nifti/NiftiFiles.h"
+#include "system/files/CurrentFolder.h"
+#include "system/files/InputFile.h"
+#include "system/files/OutputFile.h"
+#include "text/HeaderText.h"
 
 #include "itkImageFileReader.h" // registers the formats
 #include "itkMetaDataObject.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "itk/MetaImageIntegrity.h"
-#include "itk/FileIntegrity.h"
+#include "itk/TextIntegrity.h"
 
 #include "itkMetaImageIO.h"
 #include "itk_zlib.h"

@@ -2,16 +2,12 @@
 #include "outputs/PairNaming.h"
 
 #include "headers/DataOwners.h"
-#include "system/OutputFile.h"
 #include "headers/PlainHeader.h"
-#include "outputs/StagedFolder.h"
+#include "system/files/DiskSync.h"
+#include "system/files/OutputFile.h"
 
-#include <cerrno>
-#include <cstring>
 #include <stdexcept>
 #include <system_error>
-
-#include <unistd.h>
 
 namespace fs = std::filesystem;
 
@@ -66,8 +62,10 @@ private:
   void
   AlsoCallVoxels(const fs::path & name)
   {
-    const fs::path alias = this->MakeHelperName();
-    if (link(m_Voxels.c_str(), alias.c_str()) == 0)
+    const fs::path  alias = this->MakeHelperName();
+    std::error_code error;
+    fs::create_hard_link(m_Voxels, alias, error);
+    if (!error)
     {
       fs::rename(alias, name);
       return;
@@ -108,7 +106,8 @@ private:
     catch (const std::exception & error)
     {
       // Between two names of one file, this does nothing.
-      rename(m_Voxels.c_str(), interim.c_str());
+      std::error_code ignored;
+      fs::rename(m_Voxels, interim, ignored);
       throw std::runtime_error("its voxels are complete in " + interim.string() +
                                ", but cannot get their name: " + error.what());
     }
@@ -118,9 +117,9 @@ private:
   void
   GiveBack(const fs::path & name)
   {
-    rename(m_Voxels.c_str(), m_Written.c_str());
-    m_Voxels = m_Written;
     std::error_code ignored;
+    fs::rename(m_Voxels, m_Written, ignored);
+    m_Voxels = m_Written;
     fs::remove(name, ignored);
   }
 

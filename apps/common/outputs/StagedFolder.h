@@ -3,16 +3,7 @@
 #define StagedFolder_h
 
 #include <filesystem>
-
-/** Brings a file or the entries of a folder to the disk.
- * \return 0, or the error */
-int
-BringToDisk(const std::filesystem::path & path);
-
-/** Exchanges the names of two folders in one step, where the system can do that.
- * \return 0, or the error */
-int
-ExchangeNames(const std::filesystem::path & a, const std::filesystem::path & b);
+#include <system_error>
 
 /** A folder that is written under a hidden name beside its own, and takes its name when it is complete. Otherwise it is
  * removed, also when the program is interrupted. */
@@ -41,7 +32,7 @@ public:
 
 private:
   [[noreturn]] void
-  Fail(int error) const;
+  Fail(const std::error_code & error) const;
 
   std::filesystem::path m_Output;
   std::filesystem::path m_Folder;

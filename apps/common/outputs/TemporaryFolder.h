@@ -2,14 +2,15 @@
 #ifndef TemporaryFolder_h
 #define TemporaryFolder_h
 
-#include "volumes/ImageDescription.h"
-#include "system/Interrupt.h"
 #include "outputs/PairNaming.h"
+#include "system/process/Interrupt.h"
+#include "volumes/ImageDescription.h"
 
 #include <filesystem>
 #include <optional>
 #include <set>
 #include <string>
+#include <system_error>
 #include <vector>
 
 /** The file that a name leads to, whether it exists or not: a symbolic link is to stay one.
@@ -80,8 +81,12 @@ public:
   Commit();
 
 private:
-  /** Returns false, with the reason in errno, if it cannot be made there. */
-  bool
+  /** \param output as messages name it
+   * \throw std::runtime_error if no file can have that name, or the one that has it may not be replaced */
+  void
+  CheckOutput(const std::filesystem::path & output) const;
+  /** \return why it cannot be made there, if so */
+  std::error_code
   Make(const std::filesystem::path & folder);
   void
   GiveNames(const std::vector<std::filesystem::path> & names);

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pieces/PieceFolder.h"
+#include "outputs/ReplacedFiles.h"
 #include "pieces/AgreementText.h"
-#include "system/FinishLock.h"
-#include "system/Interrupt.h"
 #include "pieces/PieceMark.h"
-#include "outputs/StagedFolder.h"
+#include "system/files/DiskSync.h"
+#include "system/files/FileIdentity.h"
+#include "system/files/NameExchange.h"
+#include "system/files/UniqueFolder.h"
+#include "system/process/FinishLock.h"
+#include "system/process/Interrupt.h"
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace fs = std::filesystem;
 
@@ -31,28 +30,16 @@ GetFolder(const fs::path & output)
   return output.parent_path() / ("." + output.filename().string() + ".pieces");
 }
 
-/** What tells a file or folder from one that takes its name later; it stays when it is renamed. */
-std::string
-GetIdentity(const fs::path & path)
-{
-  struct stat status = {};
-  return stat(path.c_str(), &status) == 0 ? std::to_string(status.st_ino) : "";
-}
-
-/** A new folder for this process, whose name starts so. Empty, with the reason in errno, if it cannot be made. */
+/** A new folder for this process, whose name starts so. */
 fs::path
-MakeUniqueFolder(const fs::path & start)
+MakeOwnFolder(const fs::path & start, std::error_code & error)
 {
-  std::string pattern = start.string() + "XXXXXX";
-  if (mkdtemp(pattern.data()) == nullptr)
+  const fs::path folder = MakeUniqueFolder(start, error);
+  if (!error)
   {
-    return {};
+    AllowUsualAccess(folder); // others may be other users of the group
   }
-  // Others may be other users of the group.
-  const mode_t mask = umask(0);
-  umask(mask);
-  chmod(pattern.c_str(), 0777 & ~mask);
-  return pattern;
+  return folder;
 }
 
 std::optional<unsigned int>
@@ -63,18 +50,18 @@ ParseNumber(const std::string & text)
   return stream >> number ? std::optional<unsigned int>(number) : std::nullopt;
 }
 
-/** Writes a small file that is there whole or not at all. \return 0, or the error */
-int
+/** Writes a small file that is there whole or not at all. */
+std::error_code
 WriteAtOnce(const fs::path & unnamed, const fs::path & path, const std::string & text)
 {
   std::ofstream(unnamed, std::ios::binary) << text;
   std::error_code error;
-  if (fs::file_size(unnamed, error) != text.size() || error)
+  const bool      isWhole = fs::file_size(unnamed, error) == text.size();
+  if (!error && !isWhole)
   {
-    return error ? error.value() : ENOSPC;
+    return std::make_error_code(std::errc::no_space_on_device);
   }
-  const int failure = BringToDisk(unnamed);
-  return failure != 0 ? failure : rename(unnamed.c_str(), path.c_str()) == 0 ? 0 : errno;
+  return error ? error : BringToDiskAs(unnamed, path);
 }
 } // namespace
 
@@ -86,10 +73,6 @@ PieceFolder::PieceFolder(const fs::path & output, const unsigned int pieces)
 
 PieceFolder::~PieceFolder()
 {
-  if (m_Agreement >= 0)
-  {
-    close(m_Agreement);
-  }
   if (!m_Temporary.empty())
   {
     RemoveTemporaryFolder(HoldInterrupts(), m_Temporary);
@@ -117,8 +100,8 @@ PieceFolder::FindNumberOfCompletePieces(const fs::path & output)
 bool
 PieceFolder::TryToJoin(const PieceAgreement & agreement)
 {
-  m_Agreement = open((m_Folder / AgreementName).c_str(), O_RDWR | O_CLOEXEC);
-  if (m_Agreement < 0)
+  m_Agreement = OpenToLock(m_Folder / AgreementName);
+  if (!m_Agreement.IsOpen())
   {
     return false;
   }
@@ -140,15 +123,7 @@ PieceFolder::TryToJoin(const PieceAgreement & agreement)
 void
 PieceFolder::Begin(const PieceAgreement & agreement, const PieceWriter & writer)
 {
-  {
-    const auto lock = HoldInterrupts();
-    m_Temporary = MakeUniqueFolder(m_Folder.string() + ".");
-    if (m_Temporary.empty())
-    {
-      this->Fail(std::strerror(errno));
-    }
-    RemoveWhenInterrupted(lock, m_Temporary, m_Output);
-  }
+  this->MakeTemporaryFolder(m_Folder.string() + ".", m_Output);
   for (const char * const name : { "output", "notes", "temporary" })
   {
     fs::create_directory(m_Temporary / name);
@@ -156,14 +131,15 @@ PieceFolder::Begin(const PieceAgreement & agreement, const PieceWriter & writer)
   writer.LayOut(m_Temporary / "output");
   const std::string text =
     Compose(agreement) + IdentityKey + (": " + GetIdentity(m_Temporary / "output" / m_Output.filename())) + "\n";
-  const int error = WriteAtOnce(m_Temporary / "unnamed", m_Temporary / AgreementName, text);
-  if (error != 0)
+  std::error_code error = WriteAtOnce(m_Temporary / "unnamed", m_Temporary / AgreementName, text);
+  if (error)
   {
-    this->Fail(std::strerror(error));
+    this->Fail(error.message());
   }
   const auto lock = HoldInterrupts();
   // It fails where another process was faster, since the folder is not empty.
-  if (rename(m_Temporary.c_str(), m_Folder.c_str()) != 0)
+  fs::rename(m_Temporary, m_Folder, error);
+  if (error)
   {
     RemoveTemporaryFolder(lock, m_Temporary);
   }
@@ -199,16 +175,23 @@ PieceFolder::GetOutputFolder() const
   return m_Folder / "output";
 }
 
+void
+PieceFolder::MakeTemporaryFolder(const fs::path & start, const fs::path & unfinished)
+{
+  std::error_code error;
+  const auto      lock = HoldInterrupts();
+  m_Temporary = MakeOwnFolder(start, error);
+  if (error)
+  {
+    this->Fail(error.message());
+  }
+  RemoveWhenInterrupted(lock, m_Temporary, unfinished);
+}
+
 const fs::path &
 PieceFolder::MakeTemporaryFolder()
 {
-  const auto lock = HoldInterrupts();
-  m_Temporary = MakeUniqueFolder(m_Folder / "temporary" / "");
-  if (m_Temporary.empty())
-  {
-    this->Fail(std::strerror(errno));
-  }
-  RemoveWhenInterrupted(lock, m_Temporary, {});
+  this->MakeTemporaryFolder(m_Folder / "temporary" / "", {});
   return m_Temporary;
 }
 
@@ -235,11 +218,11 @@ PieceFolder::FindNote(const unsigned int piece) const
 void
 PieceFolder::Note(const unsigned int piece, const std::uint32_t checksum)
 {
-  const int error =
+  const std::error_code error =
     WriteAtOnce(m_Temporary / "note", m_Folder / "notes" / std::to_string(piece), std::to_string(checksum) + "\n");
-  if (error != 0)
+  if (error)
   {
-    this->Fail("piece " + std::to_string(piece) + " is done, but cannot be noted: " + std::strerror(error));
+    this->Fail("piece " + std::to_string(piece) + " is done, but cannot be noted: " + error.message());
   }
 }
 
@@ -277,10 +260,9 @@ PieceFolder::Finish(const PieceWriter & writer)
   {
     return this->IsFinished();
   }
-  const FinishLock alone(m_Agreement, m_Folder);
-  struct stat      joined = {};
-  fstat(m_Agreement, &joined);
-  const bool isStillThere = GetIdentity(m_Folder / AgreementName) == std::to_string(joined.st_ino);
+  const FinishLock  alone(m_Agreement, m_Folder);
+  const std::string joined = GetIdentity(m_Agreement);
+  const bool        isStillThere = !joined.empty() && GetIdentity(m_Folder / AgreementName) == joined;
   if (isStillThere && !this->IsFinished())
   {
     this->Complete(writer);
@@ -325,14 +307,10 @@ PieceFolder::GiveNames(const PieceWriter & writer) const
   const fs::path folder = this->GetOutputFolder();
   for (const fs::directory_entry & entry : fs::directory_iterator(folder))
   {
-    struct stat old = {};
-    if (stat((m_Output.parent_path() / entry.path().filename()).c_str(), &old) == 0)
+    KeepPermissions(m_Output.parent_path() / entry.path().filename(), entry.path());
+    if (const std::error_code error = BringToDisk(entry.path()))
     {
-      chmod(entry.path().c_str(), old.st_mode & 07777);
-    }
-    if (const int error = BringToDisk(entry.path()); error != 0)
-    {
-      this->Fail(std::strerror(error));
+      this->Fail(error.message());
     }
   }
   if (const auto pair = writer.FindPair(folder))
@@ -341,13 +319,10 @@ PieceFolder::GiveNames(const PieceWriter & writer) const
     return;
   }
   std::error_code unknown;
-  const fs::path  from = folder / m_Output.filename();
-  const int       error = fs::is_directory(m_Output, unknown)           ? ExchangeNames(from, m_Output)
-                          : rename(from.c_str(), m_Output.c_str()) == 0 ? 0
-                                                                        : errno;
-  if (error != 0)
+  const bool      replacesFolder = fs::is_directory(m_Output, unknown);
+  if (const std::error_code error = GiveName(folder / m_Output.filename(), m_Output, replacesFolder))
   {
-    this->Fail(std::strerror(error));
+    this->Fail(error.message());
   }
   BringToDisk(m_Output.parent_path());
 }
@@ -356,9 +331,9 @@ PieceFolder::GiveNames(const PieceWriter & writer) const
 void
 PieceFolder::Remove() const
 {
-  fs::path        going = MakeUniqueFolder(m_Folder.string() + ".");
-  const auto      lock = HoldInterrupts();
   std::error_code error;
+  fs::path        going = MakeOwnFolder(m_Folder.string() + ".", error);
+  const auto      lock = HoldInterrupts();
   if (going.empty()) // the disk is full, perhaps
   {
     fs::remove(m_Folder / AgreementName, error);
@@ -366,7 +341,7 @@ PieceFolder::Remove() const
   }
   else
   {
-    rename(m_Folder.c_str(), going.c_str());
+    fs::rename(m_Folder, going, error);
   }
   RemoveWhenInterrupted(lock, going, {});
   RemoveTemporaryFolder(lock, going);

@@ -4,6 +4,7 @@
 
 #include "pieces/AgreementText.h"
 #include "pieces/PieceWriter.h"
+#include "system/files/FileDescriptor.h"
 
 #include <filesystem>
 #include <functional>
@@ -71,6 +72,8 @@ public:
   IsFinishedByAnother() const;
 
 private:
+  void
+  MakeTemporaryFolder(const std::filesystem::path & start, const std::filesystem::path & unfinished);
   bool
   TryToJoin(const PieceAgreement & agreement);
   void
@@ -88,8 +91,8 @@ private:
   std::filesystem::path m_Folder;
   std::filesystem::path m_Temporary;
   unsigned int          m_Pieces;
-  int                   m_Agreement = -1; // the open file
-  std::string           m_Identity;       // of the output as it was laid out
+  FileDescriptor        m_Agreement; // the open file
+  std::string           m_Identity;  // of the output as it was laid out
 };
 
 #endif

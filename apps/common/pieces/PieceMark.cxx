@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pieces/PieceMark.h"
 
-#include "system/FileState.h"
-
-#ifdef __linux__
-#  include <sys/xattr.h>
-#endif
+#include "system/files/ExtendedAttribute.h"
+#include "system/files/FileState.h"
 
 namespace
 {
@@ -21,22 +18,13 @@ DescribeState(const std::filesystem::path & output)
 void
 MarkAsComplete(const std::filesystem::path & output, const std::string & agreement)
 {
-#ifdef __linux__
-  const std::string text = agreement + DescribeState(output);
-  static_cast<void>(setxattr(output.c_str(), AttributeName, text.data(), text.size(), 0));
-#endif
+  SetExtendedAttribute(output, AttributeName, agreement + DescribeState(output));
 }
 
 std::string
 ReadMark(const std::filesystem::path & output)
 {
-  std::string text(1 << 16, '\0');
-#ifdef __linux__
-  const auto size = getxattr(output.c_str(), AttributeName, text.data(), text.size());
-  text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-#else
-  text.clear();
-#endif
+  const std::string text = GetExtendedAttribute(output, AttributeName);
   const std::string state = DescribeState(output);
   const bool isSame = text.size() >= state.size() && text.compare(text.size() - state.size(), state.size(), state) == 0;
   return isSame ? text.substr(0, text.size() - state.size()) : "";

@@ -67,7 +67,11 @@ CreatePlainPieceWriter(const std::string & path, const OutputOptions & options);
 std::unique_ptr<PieceWriter>
 CreateSlicePieceWriter(const std::string & path, const OutputOptions & options, const WarningSink & warn);
 
-/** Goes on with the checksum of some bytes of a file; the first starts with 0.
+/** Goes on with the checksum of some bytes; the first starts with 0. */
+std::uint32_t
+AddToChecksum(std::uint32_t checksum, const void * bytes, std::uint64_t count);
+
+/** The same for bytes of a file.
  * \throw std::runtime_error */
 std::uint32_t
 AddToChecksum(std::uint32_t checksum, const std::filesystem::path & file, std::uint64_t offset, std::uint64_t count);

@@ -1,27 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volumes/BoxRuns.h"
-#include "system/InputFile.h"
-#include "system/OutputFile.h"
-#include "pieces/PieceWriter.h"
 #include "headers/PlainHeader.h"
 #include "outputs/TemporaryFolder.h"
+#include "pieces/PieceWriter.h"
+#include "system/files/OutputFile.h"
+#include "volumes/BoxRuns.h"
 
-#include <algorithm>
 #include <stdexcept>
-
-#include <zlib.h>
 
 namespace fs = std::filesystem;
 using itk::Subdivision::Box;
 
 namespace
 {
-std::uint32_t
-Checksum(const std::uint32_t before, const void * bytes, std::uint64_t count)
-{
-  return static_cast<std::uint32_t>(crc32_z(before, static_cast<const unsigned char *>(bytes), count));
-}
-
 class PlainPieceWriter : public PieceWriter
 {
 public:
@@ -92,7 +82,7 @@ public:
     m_Folder = folder;
     m_Piece = piece;
     m_Checksum = 0;
-    m_Data = std::make_unique<OutputFile>(this->GetDataFile(folder).string(), m_Path, OutputFile::Opening::Existing);
+    m_Data = std::make_unique<OutputFile>(this->GetDataFile(folder).string(), m_Path, OutputFile::Opening::Shared);
     this->ForEachRange(piece,
                        [this](std::uint64_t offset, std::uint64_t count) { m_Data->ReserveRange(offset, count); });
   }
@@ -103,7 +93,7 @@ public:
     const char * bytes = static_cast<const char *>(voxels);
     this->ForEachRange({ box }, [&](std::uint64_t offset, std::uint64_t count) {
       m_Data->WriteAt(offset, bytes, count);
-      m_Checksum = Checksum(m_Checksum, bytes, count);
+      m_Checksum = AddToChecksum(m_Checksum, bytes, count);
       bytes += count;
     });
   }
@@ -201,42 +191,8 @@ private:
 };
 } // namespace
 
-std::uint32_t
-AddToChecksum(std::uint32_t checksum, const fs::path & file, std::uint64_t offset, std::uint64_t count)
-{
-  const InputFile   input(file.string());
-  std::vector<char> bytes(std::min<std::uint64_t>(count, 1 << 22));
-  while (count > 0)
-  {
-    const auto part = std::min<std::uint64_t>(count, bytes.size());
-    input.ReadAt(offset, bytes.data(), part);
-    checksum = Checksum(checksum, bytes.data(), part);
-    offset += part;
-    count -= part;
-  }
-  return checksum;
-}
-
 std::unique_ptr<PieceWriter>
 CreatePlainPieceWriter(const std::string & path, const OutputOptions & options)
 {
   return std::make_unique<PlainPieceWriter>(path, options);
-}
-
-std::unique_ptr<PieceWriter>
-CreatePieceWriter(const std::string & path, const OutputOptions & options, const WarningSink & warn)
-{
-  std::error_code error;
-  if (IsPlainFormat(path))
-  {
-    return CreatePlainPieceWriter(path, options);
-  }
-  if (path.back() == '/' || fs::is_directory(path, error))
-  {
-    return CreateSlicePieceWriter(path, options, warn);
-  }
-  throw std::runtime_error(
-    "cannot write " + path +
-    ": several processes write the pieces of .mha, .mhd, .nrrd and .nhdr files and of folders of "
-    "slices (a name that ends in /)");
 }

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pieces/PieceWriter.h"
 #include "slices/SliceFolderWriter.h"
-#include "outputs/StagedFolder.h"
+#include "system/files/DiskSync.h"
 #include "tiff/TiffPageWriter.h"
 
-#include <cstring>
 #include <stdexcept>
-
-#include <unistd.h>
 
 namespace fs = std::filesystem;
 using itk::Subdivision::Box;
@@ -98,9 +95,9 @@ public:
     {
       this->Fail("its last slice lacks rows");
     }
-    if (const int error = BringToDisk(m_Folder); error != 0)
+    if (const std::error_code error = BringToDisk(m_Folder))
     {
-      this->Fail(std::strerror(error));
+      this->Fail(error.message());
     }
   }
 
@@ -174,10 +171,9 @@ private:
     m_Slice->EndPage();
     m_Slice.reset();
     m_Rows = 0;
-    const int error = BringToDisk(unnamed);
-    if (error != 0 || rename(unnamed.c_str(), (m_Folder / name).c_str()) != 0)
+    if (const std::error_code error = BringToDiskAs(unnamed, m_Folder / name))
     {
-      this->Fail(std::strerror(error != 0 ? error : errno));
+      this->Fail(error.message());
     }
   }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plain/PlainReader.h"
-#include "volumes/BoxRuns.h"
-#include "text/HeaderText.h"
 #include "headers/MetaHeader.h"
 #include "headers/NrrdHeader.h"
+#include "text/HeaderText.h"
+#include "volumes/BoxRuns.h"
 
 #include <algorithm>
 #include <cstring>

@@ -3,8 +3,8 @@
 #define PlainReader_h
 
 #include "deflate/InflateStream.h"
-#include "system/InputFile.h"
 #include "headers/PlainLayout.h"
+#include "system/files/InputFile.h"
 #include "volumes/VolumeReader.h"
 
 #include <memory>

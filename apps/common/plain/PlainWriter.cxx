@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plain/PlainWriter.h"
-#include "volumes/BoxRuns.h"
 #include "headers/MetaHeader.h"
+#include "volumes/BoxRuns.h"
 
 #include <stdexcept>
 

@@ -2,10 +2,10 @@
 #ifndef PlainWriter_h
 #define PlainWriter_h
 
-#include "system/OutputFile.h"
 #include "deflate/ParallelDeflate.h"
 #include "headers/PlainHeader.h"
 #include "outputs/TemporaryFolder.h"
+#include "system/files/OutputFile.h"
 #include "volumes/VolumeWriter.h"
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plain/RawReader.h"
+#include "system/files/InputFile.h"
 #include "volumes/GridOverrides.h"
-#include "system/InputFile.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "itk/Bitmap.h"
-#include "system/InputFile.h"
 #include "itk/JpegIntegrity.h"
-#include "text/OneLineMessage.h"
 #include "slices/SliceFile.h"
+#include "system/files/InputFile.h"
+#include "text/OneLineMessage.h"
 
 #include "itkJPEGImageIO.h"
 #include "itkPNGImageIO.h"

@@ -2,9 +2,9 @@
 #ifndef SliceFile_h
 #define SliceFile_h
 
-#include "volumes/ImageDescription.h"
 #include "tiff/TiffPixels.h"
 #include "tiff/TiffStack.h"
+#include "volumes/ImageDescription.h"
 
 #include <memory>
 #include <string>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slices/SliceFolder.h"
-#include "volumes/GridOverrides.h"
 #include "slices/SliceFile.h"
 #include "slices/SliceNames.h"
 #include "tiff/TiffScale.h"
+#include "volumes/GridOverrides.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "system/InputFile.h"
 #include "slices/SliceFile.h"
+#include "system/files/InputFile.h"
 #include "tiff/TiffScale.h"
 
 #include <stdexcept>

@@ -2,8 +2,6 @@
 #ifndef HeaderText_h
 #define HeaderText_h
 
-#include "headers/PlainLayout.h"
-
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -27,6 +25,9 @@ Trim(const std::string & text);
 std::string
 ToLower(std::string text);
 
+bool
+HasEnding(const std::string & name, const std::string & ending);
+
 std::vector<std::string>
 SplitWords(const std::string & text);
 
@@ -48,11 +49,6 @@ std::string
 JoinReals(const std::vector<double> & values);
 std::string
 JoinSizes(const std::vector<std::uint64_t> & values);
-
-/** Checks an image's size, and that its grid is one: the vectors of its axes are not in one plane. Spacings become
- * positive and directions unit vectors. */
-void
-CheckDescription(const std::string & path, ImageDescription & description);
 
 /** The names that a pattern such as slice%03d.raw stands for; it holds one conversion of an integer and nothing else.
  */

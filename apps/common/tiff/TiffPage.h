@@ -2,9 +2,9 @@
 #ifndef TiffPage_h
 #define TiffPage_h
 
-#include "volumes/ImageDescription.h"
-#include "system/InputFile.h"
+#include "system/files/InputFile.h"
 #include "tiff/TiffHandle.h"
+#include "volumes/ImageDescription.h"
 
 #include <cstdint>
 #include <string>

@@ -2,8 +2,8 @@
 #ifndef TiffPageWriter_h
 #define TiffPageWriter_h
 
-#include "volumes/ImageDescription.h"
 #include "tiff/TiffHandle.h"
+#include "volumes/ImageDescription.h"
 #include "volumes/VolumeWriter.h"
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tiff/TiffReader.h"
-#include "volumes/GridOverrides.h"
-#include "system/InputFile.h"
+#include "system/files/InputFile.h"
 #include "tiff/TiffPixels.h"
 #include "tiff/TiffScale.h"
+#include "volumes/GridOverrides.h"
 
 #include <algorithm>
 #include <numeric>

@@ -2,9 +2,9 @@
 #ifndef TiffScale_h
 #define TiffScale_h
 
-#include "volumes/ImageDescription.h"
 #include "tiff/TiffHandle.h"
 #include "tiff/TiffStack.h"
+#include "volumes/ImageDescription.h"
 
 /** The text of the current page that describes the image; empty if there is none. */
 std::string

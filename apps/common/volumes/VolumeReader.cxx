@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volumes/VolumeReader.h"
+#include "volumes/DescriptionCheck.h"
 #include "volumes/GridOverrides.h"
-#include "text/HeaderText.h"
 
 void
 VolumeReader::OverrideGrid(const std::string & path, const InputOptions & options, const WarningSink & warn)

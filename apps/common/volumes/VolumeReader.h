@@ -4,7 +4,6 @@
 
 #include "volumes/ImageDescription.h"
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,11 +64,5 @@ public:
 protected:
   ImageDescription m_Description;
 };
-
-/** Opens an image file, a folder of slices or of a DICOM series, or a raw file, and checks that it is whole and that
- * the volume is regular.
- * \throw std::runtime_error that says why not, in one sentence that names the file */
-std::unique_ptr<VolumeReader>
-OpenVolume(const std::string & path, const InputOptions & options, const WarningSink & warn);
 
 #endif

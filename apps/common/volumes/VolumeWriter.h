@@ -4,8 +4,7 @@
 
 #include "volumes/ImageDescription.h"
 
-#include <memory>
-#include <string>
+#include <cstdint>
 
 /** How the user wants the output written. */
 struct OutputOptions
@@ -45,10 +44,5 @@ public:
   virtual void
   Commit() = 0;
 };
-
-/** A writer for the format that the name's ending says, or for a folder of slices where the name is a folder's.
- * \throw std::runtime_error that lists the formats, if there is none for that ending */
-std::unique_ptr<VolumeWriter>
-CreateVolume(const std::string & path, const OutputOptions & options, const WarningSink & warn);
 
 #endif

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "system/LinkFolder.h"
-#include "system/Interrupt.h"
+#include "itk/LinkFolder.h"
+#include "system/files/UniqueFolder.h"
+#include "system/process/Interrupt.h"
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <stdexcept>
 
 namespace fs = std::filesystem;
@@ -24,14 +22,14 @@ LinkFolder::Get()
 
 LinkFolder::LinkFolder()
 {
-  std::string pattern = (fs::temp_directory_path() / ".links-XXXXXX").string();
-  const auto  lock = HoldInterrupts();
-  if (mkdtemp(pattern.data()) == nullptr)
+  std::error_code error;
+  const auto      lock = HoldInterrupts();
+  m_Folder = MakeUniqueFolder(fs::temp_directory_path() / ".links-", error);
+  if (error)
   {
     throw std::runtime_error("cannot make a temporary folder in " + fs::temp_directory_path().string() + ": " +
-                             std::strerror(errno));
+                             error.message());
   }
-  m_Folder = pattern;
   GetRunRecord().LinkFolder.Set(m_Folder);
 }
 

@@ -2,6 +2,8 @@
 #ifndef OutputFile_h
 #define OutputFile_h
 
+#include "system/files/FileDescriptor.h"
+
 #include <cstdint>
 #include <string>
 
@@ -11,17 +13,14 @@ class OutputFile
 public:
   enum class Opening
   {
-    New,     ///< it must not exist
-    Existing ///< it must exist, and keeps what it holds
+    New,   ///< it must not exist
+    Kept,  ///< it must exist, and keeps what it holds
+    Shared ///< likewise, and other machines write other parts of it
   };
 
   /** \param meant the name that messages call it by
    * \throw std::runtime_error */
   OutputFile(const std::string & path, const std::string & meant, Opening opening = Opening::New);
-  ~OutputFile();
-  OutputFile(const OutputFile &) = delete;
-  OutputFile &
-  operator=(const OutputFile &) = delete;
 
   /** Gives the file its full size and blocks for it, so that the disk cannot run full later.
    * \return whether the file system can; if not, only bringing the file to the disk tells that there was room
@@ -33,6 +32,16 @@ public:
    * \throw std::runtime_error if the disk has no room */
   void
   SetSize(std::uint64_t size);
+
+  /** Gives the file a size; what is beyond it is cut off.
+   * \throw std::runtime_error */
+  void
+  Resize(std::uint64_t size);
+
+  /** Gives the file a larger size and blocks for it, whatever the file system can; its bytes stay as they are.
+   * \throw std::runtime_error if the disk has no room */
+  void
+  Extend(std::uint64_t size);
 
   /** Takes blocks for a part of the file, whose bytes stay as they are.
    * \return whether the file system can
@@ -62,9 +71,9 @@ private:
   void
   CheckRoom(std::uint64_t size) const;
 
-  std::string m_Meant;
-  int         m_Descriptor;
-  bool        m_IsHurried{ true };
+  std::string    m_Meant;
+  FileDescriptor m_File;
+  bool           m_IsHurried{ true };
 };
 
 #endif

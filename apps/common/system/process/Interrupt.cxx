@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "system/Interrupt.h"
+#include "system/process/Interrupt.h"
 
 InterruptLock
 HoldInterrupts()

@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "system/FinishLock.h"
+#include "system/process/FinishLock.h"
 
 #include <cerrno>
 #include <chrono>
 #include <thread>
 
+#include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-FinishLock::FinishLock(const int descriptor, const std::filesystem::path & folder)
-  : m_Descriptor(descriptor)
+FileDescriptor
+OpenToLock(const std::filesystem::path & path)
 {
-  if (flock(m_Descriptor, LOCK_EX) == 0)
+  // NFS gives this lock only to who may write.
+  return FileDescriptor(open(path.c_str(), O_RDWR | O_CLOEXEC));
+}
+
+FinishLock::FinishLock(const FileDescriptor & file, const std::filesystem::path & folder)
+  : m_File(file)
+{
+  if (flock(m_File.GetNumber(), LOCK_EX) == 0)
   {
     return;
   }
@@ -34,7 +42,7 @@ FinishLock::~FinishLock()
 {
   if (m_Claim.empty())
   {
-    flock(m_Descriptor, LOCK_UN);
+    flock(m_File.GetNumber(), LOCK_UN);
   }
   else
   {

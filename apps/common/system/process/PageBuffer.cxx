@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "system/PageBuffer.h"
+#include "system/process/PageBuffer.h"
 
 #include <new>
 #include <utility>

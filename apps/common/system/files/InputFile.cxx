@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "system/InputFile.h"
+#include "system/files/InputFile.h"
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <stdexcept>
 
 #include <fcntl.h>
@@ -22,36 +21,19 @@ Fail(const std::string & path, const std::string & reason)
 // A pipe without a writer would let a blocking open() wait for ever.
 InputFile::InputFile(const std::string & path)
   : m_Path(path)
-  , m_Descriptor(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK))
+  , m_File(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK))
 {
-  if (m_Descriptor < 0)
+  if (!m_File.IsOpen())
   {
-    Fail(path, std::strerror(errno));
+    Fail(path, GetLastError().message());
   }
   struct stat status = {};
-  const bool  isRegular = fstat(m_Descriptor, &status) == 0 && S_ISREG(status.st_mode);
+  const bool  isRegular = fstat(m_File.GetNumber(), &status) == 0 && S_ISREG(status.st_mode);
   if (!isRegular)
   {
-    close(m_Descriptor);
     Fail(path, S_ISDIR(status.st_mode) ? "it is a folder" : "it is not a regular file; copy it to one first");
   }
   m_Size = static_cast<std::uint64_t>(status.st_size);
-}
-
-InputFile::~InputFile()
-{
-  if (m_Descriptor >= 0)
-  {
-    close(m_Descriptor);
-  }
-}
-
-InputFile::InputFile(InputFile && other) noexcept
-  : m_Path(std::move(other.m_Path))
-  , m_Descriptor(other.m_Descriptor)
-  , m_Size(other.m_Size)
-{
-  other.m_Descriptor = -1;
 }
 
 std::uint64_t
@@ -60,7 +42,7 @@ InputFile::ReadSome(std::uint64_t offset, void * bytes, std::uint64_t count) con
   std::uint64_t done = 0;
   while (done < count)
   {
-    const auto read = pread(m_Descriptor,
+    const auto read = pread(m_File.GetNumber(),
                             static_cast<char *>(bytes) + done,
                             std::min<std::uint64_t>(count - done, 1 << 30),
                             static_cast<off_t>(offset + done));
@@ -70,7 +52,7 @@ InputFile::ReadSome(std::uint64_t offset, void * bytes, std::uint64_t count) con
     }
     if (read < 0)
     {
-      Fail(m_Path, std::strerror(errno));
+      Fail(m_Path, GetLastError().message());
     }
     if (read == 0)
     {

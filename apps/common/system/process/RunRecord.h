@@ -2,35 +2,11 @@
 #ifndef RunRecord_h
 #define RunRecord_h
 
+#include "system/process/SharedMutex.h"
+
 #include <atomic>
-#include <climits>
 #include <cstdint>
 #include <string>
-
-#include <pthread.h>
-
-/** A lock that two processes share, and that outlives the one that held it. */
-class SharedMutex
-{
-public:
-  SharedMutex();
-
-  void
-  lock();
-
-  void
-  unlock();
-
-  /** \return whether it could be locked within some seconds */
-  bool
-  LockWithin(int seconds);
-
-private:
-  bool
-  Take(int result);
-
-  pthread_mutex_t m_Mutex;
-};
 
 /** A text that a process writes and another one reads once the first has ended. */
 class SharedText
@@ -44,7 +20,9 @@ public:
   Get() const;
 
 private:
-  char m_Text[PATH_MAX + 64] = {};
+  static constexpr std::size_t LongestPath = 4096; // on Linux
+
+  char m_Text[LongestPath + 64] = {};
 };
 
 /** What the process that runs tells the one that watches it, in memory that they share. */

@@ -2,6 +2,8 @@
 #ifndef InputFile_h
 #define InputFile_h
 
+#include "system/files/FileDescriptor.h"
+
 #include <cstdint>
 #include <string>
 
@@ -11,10 +13,6 @@ class InputFile
 public:
   /** \throw std::runtime_error if there is no such file, or it is a folder, a pipe or a device */
   explicit InputFile(const std::string & path);
-  ~InputFile();
-  InputFile(InputFile && other) noexcept;
-  InputFile &
-  operator=(InputFile &&) = delete;
 
   const std::string &
   GetPath() const
@@ -41,9 +39,9 @@ private:
   std::uint64_t
   ReadSome(std::uint64_t offset, void * bytes, std::uint64_t count) const;
 
-  std::string   m_Path;
-  int           m_Descriptor;
-  std::uint64_t m_Size = 0;
+  std::string    m_Path;
+  FileDescriptor m_File;
+  std::uint64_t  m_Size = 0;
 };
 
 #endif

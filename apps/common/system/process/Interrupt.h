@@ -2,7 +2,7 @@
 #ifndef Interrupt_h
 #define Interrupt_h
 
-#include "system/RunRecord.h"
+#include "system/process/RunRecord.h"
 
 #include <filesystem>
 #include <mutex>

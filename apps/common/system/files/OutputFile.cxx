@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "system/OutputFile.h"
+#include "system/files/OutputFile.h"
+#include "system/files/DiskSync.h"
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <stdexcept>
-#include <utility>
 
 #include <fcntl.h>
 #include <sys/statvfs.h>
@@ -28,37 +27,36 @@ InMegabytes(std::uint64_t bytes)
 int
 GetFlags(const OutputFile::Opening opening)
 {
-  // Where other machines write other parts of the file, NFS must not write whole pages, with what it took for theirs;
-  // with synchronous writes, it does not.
-  return opening == OutputFile::Opening::New ? O_CREAT | O_EXCL : O_DSYNC;
+  switch (opening)
+  {
+    case OutputFile::Opening::New:
+      return O_CREAT | O_EXCL;
+    case OutputFile::Opening::Shared:
+      // Where other machines write other parts of the file, NFS must not write whole pages, with what it took for
+      // theirs; with synchronous writes, it does not.
+      return O_DSYNC;
+    default:
+      return 0;
+  }
 }
 } // namespace
 
 OutputFile::OutputFile(const std::string & path, const std::string & meant, const Opening opening)
   : m_Meant(meant)
-  , m_Descriptor(open(path.c_str(), O_WRONLY | O_CLOEXEC | GetFlags(opening), 0666))
+  , m_File(open(path.c_str(), O_WRONLY | O_CLOEXEC | GetFlags(opening), 0666))
 {
-  if (m_Descriptor < 0)
+  if (!m_File.IsOpen())
   {
-    Fail(meant, std::strerror(errno));
-  }
-}
-
-OutputFile::~OutputFile()
-{
-  if (m_Descriptor >= 0)
-  {
-    close(m_Descriptor);
+    Fail(meant, GetLastError().message());
   }
 }
 
 void
 OutputFile::Close()
 {
-  const int descriptor = std::exchange(m_Descriptor, -1);
-  if (close(descriptor) != 0 && errno != EINTR)
+  if (const std::error_code error = m_File.Close())
   {
-    Fail(m_Meant, std::strerror(errno));
+    Fail(m_Meant, error.message());
   }
 }
 
@@ -66,7 +64,7 @@ void
 OutputFile::CheckRoom(std::uint64_t size) const
 {
   struct statvfs disk = {};
-  if (fstatvfs(m_Descriptor, &disk) == 0 && size / disk.f_frsize > disk.f_bavail)
+  if (fstatvfs(m_File.GetNumber(), &disk) == 0 && size / disk.f_frsize > disk.f_bavail)
   {
     Fail(m_Meant,
          "it needs " + InMegabytes(size) + ", and the disk has " +
@@ -80,10 +78,7 @@ OutputFile::Reserve(std::uint64_t size)
   // Where the disk is far too small, blocks are not even tried for: they take a while.
   this->CheckRoom(size);
   const bool isReserved = this->ReserveRange(0, size);
-  if (ftruncate(m_Descriptor, static_cast<off_t>(size)) != 0)
-  {
-    Fail(m_Meant, std::strerror(errno));
-  }
+  this->Resize(size);
   return isReserved;
 }
 
@@ -91,9 +86,24 @@ void
 OutputFile::SetSize(std::uint64_t size)
 {
   this->CheckRoom(size);
-  if (ftruncate(m_Descriptor, static_cast<off_t>(size)) != 0)
+  this->Resize(size);
+}
+
+void
+OutputFile::Resize(std::uint64_t size)
+{
+  if (ftruncate(m_File.GetNumber(), static_cast<off_t>(size)) != 0)
   {
-    Fail(m_Meant, std::strerror(errno));
+    Fail(m_Meant, GetLastError().message());
+  }
+}
+
+void
+OutputFile::Extend(std::uint64_t size)
+{
+  if (const int error = posix_fallocate(m_File.GetNumber(), 0, static_cast<off_t>(size)))
+  {
+    Fail(m_Meant, std::generic_category().message(error));
   }
 }
 
@@ -101,13 +111,13 @@ bool
 OutputFile::ReserveRange(std::uint64_t offset, std::uint64_t count)
 {
 #ifdef __linux__
-  if (count == 0 || fallocate(m_Descriptor, 0, static_cast<off_t>(offset), static_cast<off_t>(count)) == 0)
+  if (count == 0 || fallocate(m_File.GetNumber(), 0, static_cast<off_t>(offset), static_cast<off_t>(count)) == 0)
   {
     return true;
   }
   if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG)
   {
-    Fail(m_Meant, std::strerror(errno));
+    Fail(m_Meant, GetLastError().message());
   }
 #else
   static_cast<void>(offset);
@@ -126,9 +136,9 @@ OutputFile::DoNotHurry()
 void
 OutputFile::BringToDisk()
 {
-  if (fsync(m_Descriptor) != 0 && errno != EINVAL)
+  if (const std::error_code error = ::BringToDisk(m_File))
   {
-    Fail(m_Meant, std::strerror(errno));
+    Fail(m_Meant, error.message());
   }
 }
 
@@ -138,20 +148,20 @@ OutputFile::WriteAt(std::uint64_t offset, const void * bytes, std::uint64_t coun
   while (count > 0)
   {
     const auto written =
-      pwrite(m_Descriptor, bytes, std::min<std::uint64_t>(count, 1 << 30), static_cast<off_t>(offset));
+      pwrite(m_File.GetNumber(), bytes, std::min<std::uint64_t>(count, 1 << 30), static_cast<off_t>(offset));
     if (written < 0 && errno == EINTR)
     {
       continue;
     }
     if (written <= 0)
     {
-      Fail(m_Meant, std::strerror(written < 0 ? errno : ENOSPC));
+      Fail(m_Meant, std::generic_category().message(written < 0 ? errno : ENOSPC));
     }
 #ifdef __linux__
     // The disk begins at once, so that bringing the file to it does not take as long again at the end. A hint.
     if (m_IsHurried)
     {
-      (void)sync_file_range(m_Descriptor, static_cast<off_t>(offset), written, SYNC_FILE_RANGE_WRITE);
+      (void)sync_file_range(m_File.GetNumber(), static_cast<off_t>(offset), written, SYNC_FILE_RANGE_WRITE);
     }
 #endif
     bytes = static_cast<const char *>(bytes) + written;

@@ -2,18 +2,14 @@
 #ifndef LibraryMessages_h
 #define LibraryMessages_h
 
-#include <cstdio>
+#include "system/files/FileDescriptor.h"
+
 #include <streambuf>
 #include <string>
-#include <vector>
-
-/** Where the program tells the user of errors and progress: stderr, even while it is kept from the libraries. */
-std::FILE *
-GetTerminal();
 
 /** Keeps from the terminal what the image libraries print while they read and write: errors reach the user as
  * exceptions, in one line, and 3D Slicer reads stdout. The program itself prints with std::printf and to
- * GetTerminal(). */
+ * GetTerminal() (Terminal.h). */
 class LibraryMessages
 {
 public:
@@ -37,13 +33,8 @@ public:
 
 private:
   const std::size_t      m_Start;
-  const int              m_Errors; // where they went before
+  const FileDescriptor   m_Errors; // where they went before
   std::streambuf * const m_Output;
 };
-
-/** The warnings among what libraries printed: each once, in one line, without places in source code; of many, the first
- * few. */
-std::vector<std::string>
-FindLibraryWarnings(const std::string & text);
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "system/FileState.h"
+#include "system/files/FileState.h"
 
 #include <algorithm>
 #include <cstdint>

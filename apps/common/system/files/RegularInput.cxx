@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "system/RegularInput.h"
+#include "system/files/RegularInput.h"
+#include "system/files/FileDescriptor.h"
 
-#include <cerrno>
-#include <cstring>
 #include <stdexcept>
 
 #include <sys/stat.h>
@@ -24,7 +23,7 @@ CheckIsRegularInput(const std::string & path)
   struct stat       status = {};
   if (stat(path.c_str(), &status) != 0 || access(path.c_str(), R_OK) != 0)
   {
-    throw std::runtime_error(start + std::strerror(errno));
+    throw std::runtime_error(start + GetLastError().message());
   }
   if (!S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
   {

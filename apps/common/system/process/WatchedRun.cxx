@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "system/WatchedRun.h"
+#include "system/process/WatchedRun.h"
 
-#include "system/LibraryMessages.h"
+#include "system/process/LibraryMessages.h"
+#include "system/process/RunRecord.h"
+#include "system/process/Terminal.h"
 #include "text/OneLineMessage.h"
-#include "system/RunRecord.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -31,7 +32,7 @@ namespace
 void
 Tell(const std::string & message)
 {
-  std::fprintf(GetTerminal(), "%s: %s\n", program_invocation_short_name, MakeOneLine(message).c_str());
+  TellUser(MakeOneLine(message));
 }
 
 /** The signals that end the program, less those that its parent had it ignore (as nohup does). */

@@ -10,6 +10,7 @@
 #include "system/process/LibraryMessages.h"
 #include "system/process/Terminal.h"
 #include "system/process/WatchedRun.h"
+#include "system/process/WatchedTask.h"
 #include "text/OneLineMessage.h"
 
 #include "itkMacro.h"

@@ -24,6 +24,7 @@
 #include "system/process/LibraryMessages.h"
 #include "system/process/Terminal.h"
 #include "system/process/WatchedRun.h"
+#include "system/process/WatchedTask.h"
 #include "text/LibraryWarnings.h"
 #include "text/OneLineMessage.h"
 

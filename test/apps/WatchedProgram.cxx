@@ -7,6 +7,7 @@
 #include "system/process/LibraryMessages.h"
 #include "system/process/Terminal.h"
 #include "system/process/WatchedRun.h"
+#include "system/process/WatchedTask.h"
 
 #include <csignal>
 #include <cstdio>

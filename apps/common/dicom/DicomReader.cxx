@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dicom/DicomReader.h"
 #include "dicom/DicomValues.h"
-#include "system/process/WatchedRun.h"
+#include "system/process/WatchedTask.h"
 
 #include "gdcmByteValue.h"
 #include "gdcmImageChangePlanarConfiguration.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dicom/DicomSeries.h"
-#include "system/process/WatchedRun.h"
+#include "system/process/WatchedTask.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -7,7 +7,7 @@
 #include "nifti/NiftiFiles.h"
 #include "nifti/NiftiHeader.h"
 #include "system/files/InputFile.h"
-#include "system/process/WatchedRun.h"
+#include "system/process/WatchedTask.h"
 #include "text/HeaderText.h"
 #include "text/OneLineMessage.h"
 #include "volumes/BoxRuns.h"

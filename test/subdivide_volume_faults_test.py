@@ -173,7 +173,7 @@ class Faults(unittest.TestCase):
                 shutil.rmtree(scene.folder, ignore_errors=True)
 
     def test_a_folder_that_must_not_be_written(self):
-        """Files are written over in place, with a warning; a folder of slices is refused."""
+        """Nor must the files in it."""
         if os.geteuid() == 0 and not self.may_become_nobody():
             self.skipTest("root may write everywhere, and cannot become another user here")
         as_user = {"user": 65534} if os.geteuid() == 0 else {}
@@ -183,12 +183,34 @@ class Faults(unittest.TestCase):
             scene.prepare()
             for root, folders, names in os.walk(scene.folder):
                 for name in names:
-                    os.chmod(os.path.join(root, name), 0o644)
+                    os.chmod(os.path.join(root, name), 0o444)
             os.chmod(scene.folder, 0o555)
             result = self.hit(scene, "locked", prepare=False, **as_user)
             os.chmod(scene.folder, 0o755)
             self.assert_told(result, kind)
             self.assertIn("ermission", result.stderr, kind)
+
+    @unittest.skipUnless(shutil.which("strace"), "for want of strace")
+    def test_a_file_written_in_place_that_does_not_reach_the_disk(self):
+        """It is not the old output any more, and must not be taken for the new one."""
+        if os.geteuid() == 0 and not self.may_become_nobody():
+            self.skipTest("root may write everywhere, and cannot become another user here")
+        as_user = {"user": 65534} if os.geteuid() == 0 else {}
+        os.chmod(self.folder, 0o755)
+        scene = self.make_scene("mha")
+        for number, code in (1, 1), (2, 1), (3, 0):  # the temporary file, what it is copied over, none
+            scene.prepare()
+            os.chmod(scene.output, 0o666)
+            os.chmod(scene.folder, 0o555)
+            file = os.stat(scene.output).st_ino
+            command = ["strace", "-f", "-qq", "-o", "/dev/null", "-e", "trace=fsync", "-e",
+                       f"inject=fsync:error=EIO:when={number}", *scene.get_command()]
+            result = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120, **as_user)
+            os.chmod(scene.folder, 0o755)
+            self.assertEqual(result.returncode, code, (number, result.stderr))
+            self.assertEqual(os.stat(scene.output).st_ino, file, number)
+            self.assertEqual("Input/output error" in result.stderr, code == 1, (number, result.stderr))
+            self.assertEqual(scene.get_state(), scene.old if number == 1 else scene.new, number)
 
     @staticmethod
     def may_become_nobody():

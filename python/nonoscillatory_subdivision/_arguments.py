@@ -7,7 +7,7 @@ import os
 from collections.abc import Sequence
 from numbers import Real
 from operator import index
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -16,6 +16,20 @@ from . import _core
 
 Boundary = str | float
 Region = Sequence[slice] | slice
+
+
+class _Xarray(Protocol):
+    @property
+    def coords(self) -> Any: ...
+
+
+class _Dask(Protocol):
+    @property
+    def chunks(self) -> Any: ...
+
+
+# What is like an array, but comes back as one of its own kind: told by what NumPy's arrays have not.
+ArrayOfAKind = _Xarray | _Dask
 
 # What the array layer computes with directly.
 NATIVE_TYPES = frozenset(np.dtype(name) for name in "bBhHiIqQfd")

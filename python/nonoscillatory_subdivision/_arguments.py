@@ -107,12 +107,12 @@ def checked_levels(levels: int) -> int:
     return number
 
 
-def checked_threads(threads: int | None) -> int:
+def checked_threads(threads: int | None, name: str = "threads") -> int:
     if threads is None:
         return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    number = checked_index(threads, "threads")
+    number = checked_index(threads, name)
     if number < 1:
-        raise ValueError(f"threads {threads} is less than 1")
+        raise ValueError(f"{name} {threads} is less than 1")
     return min(number, MOST_THREADS)
 
 

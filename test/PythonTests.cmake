@@ -50,22 +50,22 @@ endfunction()
 add_python_test(include_arrows_test.py)
 # Planting all of the faults takes an hour; that their texts stand in the sources is seen at once.
 add_python_test(faults/planted_faults_test.py)
-add_python_test(subdivide_volume_test.py PROGRAMS SubdivideVolume)
-add_python_test(subdivide_volume_crashes_test.py PROGRAMS SubdivideVolume)
-add_python_test(subdivide_volume_faults_test.py PROGRAMS SubdivideVolume)
-add_python_test(subdivide_volume_headers_test.py PROGRAMS SubdivideVolume)
-add_python_test(subdivide_volume_kills_test.py PROGRAMS SubdivideVolume)
-add_python_test(subdivide_volume_labels_test.py PROGRAMS SubdivideVolume)
-add_python_test(subdivide_volume_levels_test.py PROGRAMS SubdivideVolume)
-add_python_test(subdivide_volume_neighbours_test.py PROGRAMS SubdivideVolume)
-add_python_test(subdivide_volume_piece_faults_test.py PROGRAMS SubdivideVolume)
-add_python_test(subdivide_volume_pieces_test.py PROGRAMS SubdivideVolume)
-add_python_test(subdivide_volume_processes_test.py PROGRAMS SubdivideVolume)
-add_python_test(subdivide_volume_reports_test.py PROGRAMS SubdivideVolume)
-add_python_test(subdivide_volume_truncated_test.py PROGRAMS SubdivideVolume)
-add_python_test(compare_volumes_test.py PROGRAMS CompareVolumes)
+add_python_test(programs/subdivide_volume_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_crashes_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_faults_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_headers_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_kills_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_labels_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_levels_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_neighbours_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_piece_faults_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_pieces_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_processes_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_reports_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_truncated_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/compare_volumes_test.py PROGRAMS CompareVolumes)
 foreach(script experiments_test.py experiments_surfaces_test.py)
-  add_python_test(${script}
+  add_python_test(experiments/${script}
     PROGRAMS SubdivideVolume CompareVolumes
     PACKAGES numpy scipy pywt matplotlib skimage
     THROUGH bash "${PROJECT_SOURCE_DIR}/scripts/experiments_python.sh" "${PROJECT_BINARY_DIR}/experiments"
@@ -74,7 +74,7 @@ endforeach()
 
 # The wrapping for ITK's Python. Where ITK is wrapped, wrapping/test is run as well.
 if(CASTXML_EXECUTABLE)
-  add_python_test(wrapping_test.py)
+  add_python_test(headers/wrapping_test.py)
   if(NonOscillatorySubdivision_PYTHON)
     set_tests_properties(wrapping_test PROPERTIES ENVIRONMENT
       "CASTXML=${CASTXML_EXECUTABLE};CXX=${CMAKE_CXX_COMPILER};INCLUDE_DIRECTORIES=$<JOIN:${include_directories},:>"

@@ -17,15 +17,17 @@ namespace Subdivision
 
 /** Computes all tiles of a run (a Subdivider, or what has its two functions) with that many threads, the caller's among
  * them; returns when all are done. The first exception of any thread keeps the others from beginning another tile and
- * is passed on. For callers that bring no threads of their own: the library itself has none. */
+ * is passed on; but that of the caller's own thread goes before the others', which the monitor may have ended for it.
+ * For callers that bring no threads of their own: the library itself has none. */
 template <typename TRun, typename TMonitor>
 void
 RunTiles(TRun & run, const unsigned int threads, TMonitor & monitor)
 {
   const std::size_t        tiles = run.GetNumberOfTiles();
   std::atomic<std::size_t> next{ 0 };
-  std::exception_ptr       firstException;
+  std::exception_ptr       exception;
   std::mutex               mutex;
+  const std::thread::id    caller = std::this_thread::get_id();
   const auto               work = [&] {
     try
     {
@@ -38,7 +40,10 @@ RunTiles(TRun & run, const unsigned int threads, TMonitor & monitor)
     {
       next = tiles;
       const std::lock_guard<std::mutex> lock(mutex);
-      firstException = firstException ? firstException : std::current_exception();
+      if (!exception || std::this_thread::get_id() == caller)
+      {
+        exception = std::current_exception();
+      }
     }
   };
   std::vector<std::thread> others;
@@ -59,9 +64,9 @@ RunTiles(TRun & run, const unsigned int threads, TMonitor & monitor)
   {
     other.join();
   }
-  if (firstException)
+  if (exception)
   {
-    std::rethrow_exception(firstException);
+    std::rethrow_exception(exception);
   }
 }
 

@@ -7,7 +7,7 @@ import os
 from collections.abc import Sequence
 from numbers import Real
 from operator import index
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -16,6 +16,20 @@ from . import _core
 
 Boundary = str | float
 Region = Sequence[slice] | slice
+
+
+class _Xarray(Protocol):
+    @property
+    def coords(self) -> Any: ...
+
+
+class _Dask(Protocol):
+    @property
+    def chunks(self) -> Any: ...
+
+
+# What is like an array, but comes back as one of its own kind: told by what NumPy's arrays have not.
+ArrayOfAKind = _Xarray | _Dask
 
 # What the array layer computes with directly.
 NATIVE_TYPES = frozenset(np.dtype(name) for name in "bBhHiIqQfd")
@@ -93,12 +107,12 @@ def checked_levels(levels: int) -> int:
     return number
 
 
-def checked_threads(threads: int | None) -> int:
+def checked_threads(threads: int | None, name: str = "threads") -> int:
     if threads is None:
         return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    number = checked_index(threads, "threads")
+    number = checked_index(threads, name)
     if number < 1:
-        raise ValueError(f"threads {threads} is less than 1")
+        raise ValueError(f"{name} {threads} is less than 1")
     return min(number, MOST_THREADS)
 
 

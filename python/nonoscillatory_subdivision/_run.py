@@ -49,7 +49,8 @@ def to_native(array: NDArray[Any]) -> NDArray[Any]:
     array = as_integers(array)
     if is_native(array) and is_in_order(array):
         return array
-    return np.ascontiguousarray(array, dtype=native_type(array.dtype))
+    # In a line and back, as NumPy leaves any strides to axes of one voxel.
+    return np.ascontiguousarray(array, dtype=native_type(array.dtype)).reshape(-1).reshape(array.shape)
 
 
 def native_type(dtype: np.dtype[Any]) -> np.dtype[Any]:

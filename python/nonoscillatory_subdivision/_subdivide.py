@@ -8,13 +8,28 @@ from typing import Any, TypeVar, overload
 
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from ._arguments import Boundary, Region
+from ._arguments import ArrayOfAKind, Boundary, Region
 from ._run import Progress
 from ._task import Task
 
 TImage = TypeVar("TImage")
+TArrayOfAKind = TypeVar("TArrayOfAKind", bound=ArrayOfAKind)
 
 
+@overload
+def subdivide(
+    volume: TArrayOfAKind,
+    *,
+    scheme: str = ...,
+    tension: float = ...,
+    boundary: Boundary = ...,
+    axes: int | Sequence[int] | None = ...,
+    levels: int = ...,
+    dtype: DTypeLike | None = ...,
+    threads: int | None = ...,
+    progress: Progress | None = ...,
+    channel_axis: int | None = ...,
+) -> TArrayOfAKind: ...
 @overload
 def subdivide(
     volume: ArrayLike,

@@ -27,6 +27,7 @@ class Job:
     """All that a process needs to know to compute a block."""
 
     input: str
+    state_of_input: str
     output: str
     shape: tuple[int, ...]
     dtype: str
@@ -68,8 +69,10 @@ class Progress:
     def exists(self) -> bool:
         return (self.folder / "job.json").exists()
 
-    def is_of(self, job: Job) -> bool:
-        return (self.folder / "job.json").read_text() == self._text(job)
+    def differences(self, job: Job) -> list[str]:
+        """The names of what the job that was begun has other than this one."""
+        begun, asked = self._read(), json.loads(self._text(job))
+        return [name.replace("_", " ") for name in asked if begun.get(name) != asked[name]]
 
     def mark(self, block: int) -> None:
         (self.folder / str(block)).touch()
@@ -78,7 +81,7 @@ class Progress:
         return {int(path.name) for path in self.folder.iterdir() if path.name.isdigit()}
 
     def output(self) -> str:
-        return str(json.loads((self.folder / "job.json").read_text())["output"])
+        return str(self._read()["output"])
 
     def end(self) -> None:
         # The job last: as long as it is there, a run that was ended here goes on.
@@ -87,6 +90,10 @@ class Progress:
                 path.unlink()
         (self.folder / "job.json").unlink()
         self.folder.rmdir()
+
+    def _read(self) -> dict[str, Any]:
+        begun: dict[str, Any] = json.loads((self.folder / "job.json").read_text())
+        return begun
 
     @staticmethod
     def _text(job: Job) -> str:

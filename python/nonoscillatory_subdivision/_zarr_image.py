@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Sequence
 from copy import deepcopy
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import zarr
@@ -69,10 +71,32 @@ def open_image(path: str, is_labels: bool) -> Image:
         )
     multiscale: dict[str, Any] = described["multiscales"][0]
     axes = multiscale.get("axes", [])
-    if not axes or not all(isinstance(axis, dict) for axis in axes):
+    if not axes or not all(isinstance(axis, dict) and "name" in axis for axis in axes):
         raise ValueError(f"{path} does not describe its axes as OME-Zarr 0.4 and 0.5 do")
-    name = multiscale["datasets"][0]["path"]
-    return Image(path, node[name], f"{path.rstrip('/')}/{name}", attributes, multiscale)
+    if "ome" in attributes and "version" not in described:
+        raise ValueError(f"{path} does not say its version of OME-Zarr")
+    datasets = multiscale.get("datasets")
+    name = datasets[0].get("path") if datasets else None
+    array = node[name] if name is not None and name in node else None
+    if not isinstance(array, zarr.Array):
+        raise ValueError(f"{path} has no array at the path of its finest level, {name}")
+    if array.ndim != len(axes):
+        raise ValueError(f"{path} describes {len(axes)} axes, but {name} has {array.ndim}")
+    return Image(path, array, f"{path.rstrip('/')}/{name}", attributes, multiscale)
+
+
+def state_of(array_path: str) -> str:
+    """What changes where the files of an array do: a checksum of their names, sizes and times. Empty for an array that
+    is not one of the file system."""
+    path = Path(array_path)
+    if not path.exists():
+        return ""
+    checksum = hashlib.sha256()
+    for file in [path] if path.is_file() else sorted(path.rglob("*")):
+        status = file.stat()
+        if not file.is_dir():
+            checksum.update(f"{file.relative_to(path)} {status.st_size} {status.st_mtime_ns}\n".encode())
+    return checksum.hexdigest()
 
 
 def create_array(
@@ -115,7 +139,7 @@ def write_new_group(path: str, image: Image, axes: Sequence[int], levels: int, a
     described = image.attributes.get("ome", image.attributes)
     multiscale: dict[str, Any] = {key: image.multiscale[key] for key in ("version", "name") if key in image.multiscale}
     multiscale["axes"] = image.multiscale["axes"]
-    multiscale["datasets"] = [_dataset(image, axes, levels, array_name)]
+    multiscale["datasets"] = [dataset(image, axes, levels, array_name)]
     if "coordinateTransformations" in image.multiscale:
         multiscale["coordinateTransformations"] = image.multiscale["coordinateTransformations"]
     result: dict[str, Any] = {"multiscales": [multiscale]}
@@ -135,11 +159,14 @@ def prepend_level(image: Image, axes: Sequence[int], levels: int, array_name: st
     attributes = deepcopy(image.attributes)
     assert attributes is not None
     described = attributes.get("ome", attributes)
-    described["multiscales"][0]["datasets"].insert(0, _dataset(image, axes, levels, array_name))
+    described["multiscales"][0]["datasets"].insert(0, dataset(image, axes, levels, array_name))
     zarr.open_group(image.path, mode="r+").attrs.update(attributes)
 
 
-def _dataset(image: Image, axes: Sequence[int], levels: int, array_name: str) -> dict[str, Any]:
+def dataset(image: Image, axes: Sequence[int], levels: int, array_name: str) -> dict[str, Any]:
+    """The description of the result as a level of the image.
+
+    Raises ValueError if the image's transformations are not of a kind that can be taken along."""
     assert image.multiscale is not None
     scale, translation = _scale_and_translation(image.multiscale["datasets"][0], image.array.ndim)
     for axis in axes:

@@ -11,9 +11,9 @@ import dask.array
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from . import _arguments, _core
+from . import _arguments, _core, images
 from ._arguments import Boundary
-from ._run import native_type, real_type
+from ._run import real_type
 from ._task import Task
 
 __all__ = ["subdivide", "subdivide_labels"]
@@ -77,6 +77,8 @@ def subdivide_labels(
 
 
 def apply(task: Task, array: Any) -> Any:
+    if not images.is_dask_array(array):
+        raise TypeError(f"array is a {type(array).__name__}, not a dask.array.Array")
     if np.isnan(array.shape).any():
         raise ValueError(f"the array has chunks of unknown size: shape {array.shape}; call compute_chunk_sizes() first")
     if 0 in array.shape:
@@ -87,7 +89,7 @@ def apply(task: Task, array: Any) -> Any:
     task.apply_to_array(_arguments.checked_volume(np.zeros((1,) * array.ndim, array.dtype), "array"), threads=1)
     task = replace(task, axes=task.checked_axes(array.ndim))
     result_type = task.result_type(array.dtype)
-    between = native_type(array.dtype) if task.is_labels else real_type(array.dtype, result_type)
+    between = array.dtype.newbyteorder("=") if task.is_labels else real_type(array.dtype, result_type)
     for level in range(task.levels):
         is_last = level == task.levels - 1
         array = _one_level(replace(task, levels=1, dtype=result_type if is_last else between), array)

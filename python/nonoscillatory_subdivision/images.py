@@ -31,8 +31,11 @@ def find_adapter(image: object) -> Adapter | None:
     xarray = sys.modules.get("xarray")
     if xarray is not None and isinstance(image, xarray.DataArray):
         return XarrayAdapter()
-    if type(image).__module__.startswith("itk.") and hasattr(image, "GetLargestPossibleRegion"):
-        return ITKAdapter()
+    if type(image).__module__.startswith("itk."):
+        if hasattr(image, "GetLargestPossibleRegion"):
+            return ITKAdapter()
+        if hasattr(image, "GetOutput"):
+            raise TypeError(f"{type(image).__name__} is a filter of ITK: update it and pass its output")
     return None
 
 
@@ -60,8 +63,11 @@ class SimpleITKAdapter:
         if "label" in kind:
             raise TypeError(f"the image is a {kind}, which has no array: pass SimpleITK.LabelMapToLabel(image)")
         array = SimpleITK.GetArrayViewFromImage(image)
-        is_vector = "vector" in kind
-        return array, array.ndim - 1 if is_vector else None
+        if "vector" not in kind:
+            return array, None
+        if array.ndim == image.GetDimension():  # a single component has no axis there
+            array = array[..., np.newaxis]
+        return array, array.ndim - 1
 
     def from_array(self, array: NDArray[Any], image: Any, axes: Sequence[int], levels: int) -> Any:
         import SimpleITK
@@ -79,7 +85,8 @@ class ITKAdapter:
     def to_array(self, image: Any) -> tuple[NDArray[Any], int | None]:
         import itk
 
-        if image.GetBufferedRegion() != image.GetLargestPossibleRegion():
+        region = image.GetBufferedRegion()
+        if region != image.GetLargestPossibleRegion() or 0 in region.GetSize():
             raise ValueError("the image holds only a part of itself: call UpdateLargestPossibleRegion() first")
         array = itk.array_view_from_image(image)
         return array, array.ndim - 1 if array.ndim > image.GetImageDimension() else None
@@ -132,11 +139,17 @@ class XarrayAdapter:
             raise ValueError(
                 f"coordinate {coordinate.name!r} ({values.dtype}, shape {values.shape}) cannot be subdivided: drop it"
             )
+        if values.dtype.kind in "mM":
+            # The centres of the new cells lie between coarser units.
+            nanoseconds = values.astype(f"{values.dtype.kind}8[ns]")
+            if (nanoseconds.astype(values.dtype) != values).any():
+                raise ValueError(f"coordinate {coordinate.name!r} has NaT, or times beyond those of nanoseconds: drop it")
+            values = nanoseconds
         # Relative to the first one, so that times keep their precision; integers, which may not hold a difference, as floats.
         relative = ((values.astype(np.float64) if values.dtype.kind in "iu" else values) - values[0]).astype(np.float64)
         position = np.arange(values.size << levels) / 2**levels + first_child(levels)
         cell = np.clip(np.floor(position).astype(int), 0, values.size - 2)
         offset = relative[cell] + (position - cell) * (relative[cell + 1] - relative[cell])
         if values.dtype.kind in "mM":
-            return np.asarray(values[0] + np.rint(offset).astype(f"m8[{np.datetime_data(values.dtype)[0]}]"))
+            return np.asarray(values[0] + np.rint(offset).astype("m8[ns]"))
         return np.asarray(values[0] + offset)

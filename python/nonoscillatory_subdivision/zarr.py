@@ -16,11 +16,13 @@ from pathlib import Path
 from typing import Any
 
 import distributed
+import numpy as np
 import tqdm
 import zarr
 
 from . import _arguments, _zarr_image, schemes
 from ._arguments import Boundary
+from ._run import Run
 from ._zarr_blocks import Job, Progress, block_size, compute_block
 
 __all__ = ["main", "subdivide"]
@@ -45,7 +47,8 @@ def subdivide(
     """Double the resolution of an image in a Zarr store.
 
     The scale of an OME-Zarr image is halved for each level, its translation moves by a quarter of the old voxel down
-    for one level. A run that was ended before it was complete is taken up by the same call.
+    for one level. A run that was ended before it was complete is taken up by the same call, if its input's files are
+    as they were.
 
     Parameters
     ----------
@@ -72,7 +75,7 @@ def subdivide(
     Raises
     ------
     ValueError, TypeError
-        If there is no image, an argument does not fit it, or the target exists.
+        If there is no image, an argument does not fit it, the target exists, or the input's files change meanwhile.
     """
     run = _Run.prepare(
         source,
@@ -147,58 +150,33 @@ class _Place:
 
 
 def _check(image: _zarr_image.Image, wanted: _Wanted, chunks: Sequence[int] | None) -> None:
-    result_type = _arguments.label_type if wanted.is_labels else _arguments.result_type
-    result_type(_arguments.checked_type(image.array.dtype, image.array_path), None)
-    if 0 in image.array.shape:
-        raise ValueError(f"{image.array_path} has shape {image.array.shape}: there is nothing to subdivide")
-    _arguments.checked_levels(wanted.levels)
-    _arguments.make_options(
-        wanted.scheme, wanted.tension, wanted.boundary, wanted.axes, image.array.ndim, wanted.is_labels
+    """Finds what is wrong with what is wanted before anything is created."""
+    array = image.array
+    if array.ndim == 0 or 0 in array.shape:
+        raise ValueError(f"{image.array_path} has shape {array.shape}: there is nothing to subdivide")
+    kind = _arguments.checked_type(array.dtype, image.array_path)
+    result_type = (_arguments.label_type if wanted.is_labels else _arguments.result_type)(kind, None)
+    options = _arguments.make_options(
+        wanted.scheme, wanted.tension, wanted.boundary, wanted.axes, array.ndim, wanted.is_labels
     )
     if wanted.is_labels:
-        _arguments.check_boundary_label(wanted.boundary, image.array.dtype)
-    if chunks is not None and (len(chunks) != image.array.ndim or min(chunks) < 1):
-        raise ValueError(f"chunks {tuple(chunks)} are not {image.array.ndim} positive numbers")
-
-
-def _prepare(image: _zarr_image.Image, place: _Place, wanted: _Wanted, chunks: Sequence[int] | None) -> Job:
-    """The job; its output is created unless a run of this very job began before."""
-
-    def job_for(unit: Sequence[int], shape: Sequence[int]) -> Job:
-        return Job(
-            input=str(Path(image.array_path).resolve()) if Path(image.array_path).exists() else image.array_path,
-            output=str(place.array.resolve()),
-            shape=image.array.shape,
-            dtype=str(image.array.dtype),
-            block=block_size(unit, shape, wanted.axes),
-            **asdict(wanted),
-        )
-
-    if place.progress.exists():
-        output = zarr.open_array(str(place.array), mode="r")
-        job = job_for(output.shards or output.chunks, output.shape)
-        is_same = place.progress.is_of(job) and (chunks is None or tuple(chunks) == output.chunks)
-        if not is_same:
-            raise ValueError(
-                f"{place.folder} was begun with other options: take it up with those, or remove it "
-                f"and {place.progress.folder}"
-            )
-        return job
-    if place.exists():
-        raise ValueError(
-            f"{place.array if place.array.exists() else place.folder} exists: remove it or choose another name"
-        )
-    output = place.create(wanted, chunks)
-    job = job_for(output.shards or output.chunks, output.shape)
-    place.progress.begin(job)
-    return job
+        _arguments.check_boundary_label(wanted.boundary, kind)
+    # One voxel is enough to find what else is wrong with the options.
+    levels = _arguments.checked_levels(wanted.levels)
+    voxel = Run(options, (1,) * array.ndim, wanted.axes, levels, kind, wanted.is_labels)
+    voxel.compute(lambda first, size: np.zeros(size, kind), (0,) * array.ndim, np.empty((1,) * array.ndim, result_type))
+    if chunks is not None and (len(chunks) != array.ndim or min(chunks) < 1):
+        raise ValueError(f"chunks {tuple(chunks)} are not {array.ndim} positive numbers")
+    if image.multiscale is not None:
+        _zarr_image.dataset(image, wanted.axes, levels, "")
 
 
 @dataclass(frozen=True)
 class _Run:
+    image: _zarr_image.Image
     place: _Place
     wanted: _Wanted
-    job: Job
+    chunks: Sequence[int] | None
 
     @classmethod
     def prepare(
@@ -214,7 +192,7 @@ class _Run:
         chunks: Sequence[int] | None,
         labels: bool,
     ) -> _Run:
-        """Finds what is wrong, and creates the output."""
+        """Finds what is wrong. Nothing is created yet."""
         image = _zarr_image.open_image(source, labels)
         place = _Place(image, target)
         place.remove_notes_of_a_complete_run()
@@ -227,23 +205,65 @@ class _Run:
             is_labels=labels,
         )
         _check(image, wanted, chunks)
-        return cls(place, wanted, _prepare(image, place, wanted, chunks))
+        run = cls(image, place, wanted, chunks)
+        if place.progress.exists():
+            run._check_what_was_begun()
+        elif place.exists():
+            name = place.array if place.array.exists() else place.folder
+            raise ValueError(f"{name} exists: remove it or choose another name")
+        return run
+
+    def _job(self, output: Any) -> Job:
+        path = self.image.array_path
+        return Job(
+            input=str(Path(path).resolve()) if Path(path).exists() else path,
+            state_of_input=_zarr_image.state_of(path),
+            output=str(self.place.array.resolve()),
+            shape=self.image.array.shape,
+            dtype=str(self.image.array.dtype),
+            block=block_size(output.shards or output.chunks, output.shape, self.wanted.axes),
+            **asdict(self.wanted),
+        )
+
+    def _check_what_was_begun(self) -> None:
+        output = zarr.open_array(str(self.place.array), mode="r")
+        differences = self.place.progress.differences(self._job(output))
+        if self.chunks is not None and tuple(self.chunks) != output.chunks:
+            differences.append("chunks")
+        if differences:
+            raise ValueError(
+                f"{self.place.folder} was begun with another {', '.join(differences)}: take it up as it was begun, or "
+                f"remove it and {self.place.progress.folder}"
+            )
+
+    def _begin(self) -> Job:
+        """The job; its output is created unless a run of this very job began before."""
+        if self.place.progress.exists():
+            return self._job(zarr.open_array(str(self.place.array), mode="r"))
+        job = self._job(self.place.create(self.wanted, self.chunks))
+        self.place.progress.begin(job)
+        return job
 
     def compute(self, client: distributed.Client, report: Callable[[int, int], None]) -> None:
-        total = prod(self.job.grid())
+        job = self._begin()
+        total = prod(job.grid())
         finished = self.place.progress.finished()
         report(len(finished), total)
-        for done in self._compute_blocks(client, (block for block in range(total) if block not in finished)):
+        for done in self._compute_blocks(client, job, (block for block in range(total) if block not in finished)):
             report(len(finished) + done, total)
+        if _zarr_image.state_of(job.input) != job.state_of_input:
+            raise ValueError(
+                f"{job.input} was changed while it was read: remove {self.place.folder} and {self.place.progress.folder}"
+            )
         self.place.describe(self.wanted)
         self.place.progress.end()
 
-    def _compute_blocks(self, client: distributed.Client, blocks: Iterable[int]) -> Iterable[int]:
+    def _compute_blocks(self, client: distributed.Client, job: Job, blocks: Iterable[int]) -> Iterable[int]:
         """Yields how many blocks are done. Those of a worker that is lost are given to another one by the scheduler."""
         remaining = iter(blocks)
 
         def submit(block: int) -> distributed.Future:
-            return client.submit(compute_block, self.job, block, str(self.place.progress.folder), pure=False, retries=2)
+            return client.submit(compute_block, job, block, str(self.place.progress.folder), pure=False, retries=2)
 
         # A few blocks for each thread are enough to keep it busy; a task for every block might be too many.
         window = 3 * max(1, sum(client.nthreads().values()))
@@ -287,7 +307,7 @@ def _numbers(text: str) -> tuple[int, ...]:
 def _connect(arguments: argparse.Namespace) -> distributed.Client:
     if arguments.scheduler is not None:
         return distributed.Client(arguments.scheduler, timeout=30)
-    workers = _arguments.checked_threads(arguments.workers)
+    workers = _arguments.checked_threads(arguments.workers, "workers")
     return distributed.Client(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=":0")
 
 

@@ -9,7 +9,9 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <stdexcept>
 #include <thread>
+#include <utility>
 
 /** \brief Lets the interpreter in now and then while the tiles of a run are computed without its lock: for Ctrl-C, and
  * to say how far the run is.
@@ -27,23 +29,38 @@ public:
     , m_Elements(elements)
   {}
 
-  /** \throw nanobind::python_error if Ctrl-C was pressed or the callable raised. */
+  /** \throw nanobind::python_error in the thread that made the monitor, if Ctrl-C was pressed or the callable raised
+   * \throw std::runtime_error in the others, which end then, too, in the middle of their tiles */
   void
   Completed(std::size_t elements) override
   {
     const std::size_t completed = m_Completed += elements;
-    if (std::this_thread::get_id() == m_Caller && Clock::now() >= m_NextTime)
+    if (std::this_thread::get_id() != m_Caller)
     {
-      AskInterpreter(completed);
+      if (m_IsStopped)
+      {
+        throw std::runtime_error("stopped by the caller");
+      }
+    }
+    else if (Clock::now() >= m_NextTime)
+    {
+      try
+      {
+        AskInterpreter(completed);
+      }
+      catch (...)
+      {
+        m_IsStopped = true;
+        throw;
+      }
       m_NextTime = Clock::now() + std::chrono::milliseconds(20);
     }
   }
 
-  /** A run is stopped by an exception alone. */
   bool
   IsStopped() const override
   {
-    return false;
+    return m_IsStopped;
   }
 
 private:
@@ -69,6 +86,7 @@ private:
   const std::size_t        m_Elements;
   const std::thread::id    m_Caller = std::this_thread::get_id();
   std::atomic<std::size_t> m_Completed{ 0 };
+  std::atomic<bool>        m_IsStopped{ false };
   Clock::time_point        m_NextTime = Clock::now() + std::chrono::milliseconds(20);
 };
 

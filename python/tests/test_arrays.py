@@ -64,6 +64,15 @@ def test_same_bytes_from_any_memory(volume, layout, dtype):
     assert laid_out.tobytes() == before
 
 
+@pytest.mark.parametrize("scheme", schemes())
+def test_strides_of_an_axis_of_one_voxel_mean_nothing(scheme):
+    plane = np.random.default_rng(3).normal(size=(11, 30)).astype(np.float32)
+    moved = np.moveaxis(plane[np.newaxis], 0, -1)
+    original = plane.reshape(11, 30, 1)
+    assert moved.strides != original.strides
+    assert subdivide(moved, scheme=scheme).tobytes() == subdivide(original, scheme=scheme).tobytes()
+
+
 def test_a_broadcast_axis(volume):
     repeated = np.broadcast_to(volume[0], volume.shape)
     np.testing.assert_array_equal(subdivide(repeated), subdivide(repeated.copy()))

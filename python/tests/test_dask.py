@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from nonoscillatory_subdivision import schemes, subdivide
+from nonoscillatory_subdivision import schemes, subdivide, subdivide_labels
 
 dask_array = pytest.importorskip("dask.array")
 dask_subdivision = pytest.importorskip("nonoscillatory_subdivision.dask")
@@ -84,6 +84,23 @@ def test_errors_come_before_anything_is_computed():
         dask_subdivision.subdivide(array[:0])
     with pytest.raises(TypeError, match="masked"):
         dask_subdivision.subdivide(dask_array.ma.masked_greater(array, 0))
+
+
+@pytest.mark.parametrize("dtype", ["?", ">u2", "i8"])
+def test_label_maps_of_several_levels(volume, dtype):
+    labels = (volume > 0).astype(dtype)
+    lazy = dask_subdivision.subdivide_labels(dask_array.from_array(labels, chunks=9), levels=2)
+    result = lazy.compute(scheduler="threads")
+    expected = subdivide_labels(labels, levels=2)
+    assert lazy.dtype == result.dtype == expected.dtype
+    np.testing.assert_array_equal(result, expected)
+
+
+@pytest.mark.parametrize("volume", [np.zeros((3, 3)), [1.0, 2.0], None], ids=["numpy", "list", "None"])
+def test_what_is_no_dask_array(volume):
+    for function in (dask_subdivision.subdivide, dask_subdivision.subdivide_labels):
+        with pytest.raises(TypeError, match=f"array is a {type(volume).__name__}, not a dask.array.Array"):
+            function(volume)
 
 
 def test_chunks_that_turn_out_to_be_masked():

@@ -54,6 +54,14 @@ def test_simpleitk_vectors(volume):
     np.testing.assert_array_equal(sitk.GetArrayViewFromImage(result), subdivide(channels, channel_axis=-1))
 
 
+def test_simpleitk_vectors_of_one_component(volume):
+    sitk = pytest.importorskip("SimpleITK")
+    image = sitk.GetImageFromArray(volume[..., np.newaxis], isVector=True)
+    result = subdivide(image)
+    assert (result.GetSize(), result.GetPixelID()) == ((14, 12, 10), image.GetPixelID())
+    np.testing.assert_array_equal(sitk.GetArrayViewFromImage(result), subdivide(volume))
+
+
 def test_options_for_arrays_alone_are_refused(volume):
     sitk = pytest.importorskip("SimpleITK")
     image = sitk.GetImageFromArray(volume)
@@ -80,6 +88,28 @@ def test_itk(volume):
     assert list(result.GetLargestPossibleRegion().GetIndex()) == [4, -6, 2]
     np.testing.assert_array_equal(itk.array_view_from_image(result), subdivide(volume))
     assert_same_box(result, image, (1.5, -3.5, 0.5), (8.5, 2.5, 5.5), (3.5, -6.5, 1.5), (17.5, 5.5, 11.5))
+
+
+def test_itk_vectors_of_one_component(volume):
+    itk = pytest.importorskip("itk")
+    image = itk.image_from_array(volume[..., np.newaxis].astype(np.float32), is_vector=True)
+    result = subdivide(image)
+    assert type(result) is type(image)
+    assert result.GetNumberOfComponentsPerPixel() == 1
+    expected = subdivide(volume.astype(np.float32))
+    np.testing.assert_array_equal(np.reshape(itk.array_view_from_image(result), expected.shape), expected)
+
+
+def test_itk_before_an_update(volume):
+    itk = pytest.importorskip("itk")
+    blur = itk.MedianImageFilter.New(itk.image_from_array(volume))
+    for image in (blur.GetOutput(), itk.Image[itk.F, 2].New()):
+        with pytest.raises(ValueError, match="UpdateLargestPossibleRegion"):
+            subdivide(image)
+    with pytest.raises(TypeError, match="pass its output"):
+        subdivide(blur)
+    blur.Update()
+    np.testing.assert_array_equal(subdivide(blur.GetOutput()), subdivide(itk.array_view_from_image(blur.GetOutput())))
 
 
 def test_itk_has_no_such_images(volume):
@@ -124,6 +154,21 @@ def test_xarray_coordinates_may_fall(dtype):
     result = subdivide(xarray.DataArray(np.zeros(3), {"x": places}, ("x",)))
     step = (float(places[1]) - float(places[0])) / 2
     np.testing.assert_allclose(result["x"], 120 - step / 2 + step * np.arange(6))
+
+
+@pytest.mark.parametrize("kind", ["m", "M"])
+def test_xarray_times_in_whole_seconds(kind):
+    xarray = pytest.importorskip("xarray")
+    image = xarray.DataArray(np.zeros(3), {"t": np.array([1, 2, 3], f"{kind}8[s]")}, ("t",))
+    seconds = subdivide(image)["t"].values.astype(f"{kind}8[ns]").astype(np.int64) / 1e9
+    np.testing.assert_array_equal(seconds, [0.75, 1.25, 1.75, 2.25, 2.75, 3.25])
+
+
+def test_xarray_times_that_are_none():
+    xarray = pytest.importorskip("xarray")
+    image = xarray.DataArray(np.zeros(3), {"t": np.array(["2020", "NaT", "2021"], "M8[ns]")}, ("t",))
+    with pytest.raises(ValueError, match="'t' has NaT"):
+        subdivide(image)
 
 
 @pytest.mark.parametrize("dimension", [2, 4])

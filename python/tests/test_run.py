@@ -34,6 +34,19 @@ def test_what_progress_raises_ends_the_run(large):
     subdivide(large[:20], threads=2)
 
 
+def test_all_threads_end_within_their_tiles():
+    """Tiles reach along the whole first axis."""
+
+    def stop(fraction):
+        raise RuntimeError(f"stopped at {fraction}")
+
+    out = np.zeros((80_000, 60, 60), np.uint8)
+    with pytest.raises(RuntimeError, match="stopped at"):
+        subdivide(np.ones((40_000, 30, 30), np.uint8), progress=stop, threads=2, out=out)
+    assert out[0].any()
+    assert not out[-1].any(), "a tile was computed to its end"
+
+
 def test_a_signal_ends_a_run(large):
     """As Ctrl-C does. It comes after some of the process's own time, so that a busy machine does not matter."""
 

@@ -62,7 +62,7 @@ def test_the_command_is_killed_and_goes_on(tmp_path, volume):
     assert finished > 0
 
     other = subprocess.run([*arguments, "--scheme", "linear"], capture_output=True, text=True, timeout=60)
-    assert other.returncode == 1 and "other options" in other.stderr
+    assert other.returncode == 1 and "another scheme" in other.stderr
 
     again = subprocess.run(arguments, capture_output=True, text=True, timeout=120)
     assert again.returncode == 0, again.stderr
@@ -110,10 +110,38 @@ def test_a_run_is_not_taken_up_with_other_options(tmp_path, client, volume, smal
 
     with pytest.raises(InterruptedError):
         zarr_subdivision.subdivide(source, target, client, report=stop)
-    with pytest.raises(ValueError, match="other options"):
+    with pytest.raises(ValueError, match=f"another .*{next(iter(other))}"):
         zarr_subdivision.subdivide(source, target, client, **other)
     zarr_subdivision.subdivide(source, target, client)
     np.testing.assert_array_equal(zarr.open_array(target)[...], subdivide(volume[:16]))
+
+
+def test_a_run_is_not_taken_up_when_the_input_has_changed(tmp_path, client, volume, small_blocks):
+    source, target = str(tmp_path / "in.zarr"), str(tmp_path / "out.zarr")
+    write_plain(source, volume[:16])
+
+    def stop(done, total):
+        if done == 5:
+            raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        zarr_subdivision.subdivide(source, target, client, report=stop)
+    zarr.open_array(source, mode="r+")[...] = volume[16:32]
+    with pytest.raises(ValueError, match="another state of input"):
+        zarr_subdivision.subdivide(source, target, client)
+
+
+def test_an_input_that_changes_meanwhile(tmp_path, client, volume, small_blocks):
+    source, target = str(tmp_path / "in.zarr"), str(tmp_path / "out.zarr")
+    write_ome(source, volume[:16], "0.5")
+
+    def change(done, total):
+        if done == 5:
+            zarr.open_array(source + "/" + multiscale(source)["datasets"][0]["path"], mode="r+")[0, 0, 0] += 1
+
+    with pytest.raises(ValueError, match="changed while it was read"):
+        zarr_subdivision.subdivide(source, target, client, report=change)
+    assert "ome" not in zarr.open_group(target).attrs, "described as a complete image"
 
 
 @pytest.mark.parametrize("target_name", ["out.zarr", None])
@@ -150,6 +178,20 @@ def test_the_command_with_a_scheduler(tmp_path, client, volume):
     np.testing.assert_array_equal(zarr.open_array(str(target))[...], expected)
 
 
+def write_labels(path):
+    write_plain(path, np.zeros((4, 4), np.uint8), chunks=(4, 4))
+
+
+def write_described(path, kind="scale", version="0.5", name="0", axes="yx", datasets=None):
+    """An OME-Zarr image with an array at 0, described in one wrong way."""
+    transformations = [{"type": kind, kind: [1, 1]}]
+    level = {"path": name, "coordinateTransformations": transformations}
+    image = {"axes": [{"name": axis, "type": "space"} for axis in axes]}
+    image["datasets"] = [level] if datasets is None else datasets
+    described = {"multiscales": [image]} | ({"version": version} if version else {})
+    zarr.create_group(path, attributes={"ome": described}).create_array("0", data=np.zeros((4, 4)))
+
+
 @pytest.mark.parametrize(
     ("prepare", "options", "message"),
     [
@@ -161,6 +203,13 @@ def test_the_command_with_a_scheduler(tmp_path, client, volume):
         (lambda path: write_plain(path, np.zeros((4, 4)), chunks=(4, 4)), {"levels": 4}, "4"),
         (lambda path: write_plain(path, np.zeros((4, 4)), chunks=(4, 4)), {"axes": ["y"]}, "'y'"),
         (lambda path: write_plain(path, np.zeros((4, 4)), chunks=(4, 4)), {"chunks": (4,)}, "2 positive"),
+        (lambda path: zarr.create_array(path, shape=(), dtype="f4"), {}, "nothing to subdivide"),
+        (lambda path: write_labels(path), {"labels": True, "boundary": 300.0}, "300"),
+        (lambda path: write_described(path, kind="affine"), {}, "affine"),
+        (lambda path: write_described(path, version=None), {}, "version"),
+        (lambda path: write_described(path, name="1"), {}, "no array at the path of its finest level, 1"),
+        (lambda path: write_described(path, datasets=[]), {}, "no array"),
+        (lambda path: write_described(path, axes="zyx"), {}, "3 axes, but 0 has 2"),
     ],
 )
 def test_errors(tmp_path, client, prepare, options, message):
@@ -169,6 +218,7 @@ def test_errors(tmp_path, client, prepare, options, message):
     with pytest.raises((ValueError, TypeError), match=message):
         zarr_subdivision.subdivide(source, str(target), client, **options)
     assert not target.exists()
+    assert not (tmp_path / "out.zarr.unfinished").exists()
 
 
 def test_nothing_is_overwritten(tmp_path, client, volume):

@@ -6,7 +6,7 @@
 //   ArrayBytes HASHES           compares with a file of such lines; names each line that differs
 //   ArrayBytes --print FUSING   writes the lines, with the second hash by that target: AVX2, NEON, SVE
 
-#include "../GreyValues.h"
+#include "common/GreyValues.h"
 #include "HashedArray.h"
 
 #include "NonOscillatorySubdivision/LabelSubdivider.h"

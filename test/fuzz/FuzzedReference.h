@@ -2,7 +2,7 @@
 #ifndef FuzzedReference_h
 #define FuzzedReference_h
 
-#include "SubdivisionReference.h"
+#include "common/SubdivisionReference.h"
 
 /** The slow reference, as SubdividerFuzz calls it. It is compiled by itself, without what counts and watches the code
  * under test: otherwise a fuzzer spends its time there, and collects what is new to the reference only. */

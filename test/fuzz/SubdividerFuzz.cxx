@@ -6,7 +6,7 @@
 #include "FuzzBytes.h"
 #include "FuzzedReference.h"
 
-#include "SubdividerTestHelpers.h"
+#include "array/SubdividerTestHelpers.h"
 
 #include <algorithm>
 #include <cmath>

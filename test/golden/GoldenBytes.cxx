@@ -4,7 +4,7 @@
 //   GoldenBytes HASHES     compares with a file of such lines; names each line that differs
 //   GoldenBytes --print    writes the lines
 
-#include "../GreyValues.h"
+#include "common/GreyValues.h"
 
 #include "itkConstantBoundaryCondition.h"
 #include "itkImage.h"

@@ -2,7 +2,7 @@
 
 // What holds of any input, on generated runs from array to array: symmetries, what is reproduced, what is never left.
 
-#include "GeneratedCases.h"
+#include "common/GeneratedCases.h"
 #include "RandomRun.h"
 
 #include <cmath>

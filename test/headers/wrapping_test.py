@@ -14,7 +14,7 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-WRAPPING = Path(__file__).resolve().parents[1] / "wrapping"
+WRAPPING = Path(__file__).resolve().parents[2] / "wrapping"
 
 # What ITK wraps by default, but for double, which wheels leave out.
 TYPES = {

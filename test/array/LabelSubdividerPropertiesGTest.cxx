@@ -2,7 +2,7 @@
 
 // What holds of any label map, on generated runs.
 
-#include "GeneratedCases.h"
+#include "common/GeneratedCases.h"
 #include "NonOscillatorySubdivision/Geometry.h"
 #include "NonOscillatorySubdivision/LabelSubdivider.h"
 #include "RandomRun.h"

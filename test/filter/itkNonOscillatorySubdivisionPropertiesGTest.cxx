@@ -3,7 +3,7 @@
 // What holds of the filter in any pipeline, on generated ones: geometry, agreement with the slow reference, and the
 // same bytes whatever region is asked for, however it is streamed and however many work units share it.
 
-#include "GeneratedCases.h"
+#include "common/GeneratedCases.h"
 #include "SubdivisionRandomCases.h"
 
 #include "NonOscillatorySubdivision/Target.h"

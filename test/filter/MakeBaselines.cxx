@@ -2,7 +2,7 @@
 // Writes the inputs and the baselines of the test driver: `MakeBaselines TEST_DIRECTORY`. The baselines are made by the
 // slow reference alone; their geometry is worked out here as well, without the filter.
 
-#include "SubdivisionReference.h"
+#include "common/SubdivisionReference.h"
 
 #include "itkImageFileWriter.h"
 #include "itkMetaImageIOFactory.h"

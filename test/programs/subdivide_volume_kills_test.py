@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """SubdivideVolume killed: the old output is intact or the new one complete, and nothing else was touched.
 
-    python3 test/subdivide_volume_kills_test.py --kills 200 PROGRAM
+    python3 test/programs/subdivide_volume_kills_test.py --kills 200 PROGRAM
 
 kills so many runs at random moments and prints what became of them. With --calls, runs are also killed, by strace, at
 each of the system calls with which they touch the folder of the output, and each of these calls fails in turn for want

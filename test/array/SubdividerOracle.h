@@ -3,7 +3,7 @@
 #define SubdividerOracle_h
 
 #include "NonOscillatorySubdivision/Subdivider.h"
-#include "SubdivisionReference.h"
+#include "common/SubdivisionReference.h"
 #include "TestArray.h"
 
 #include <functional>

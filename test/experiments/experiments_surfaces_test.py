@@ -12,7 +12,7 @@ import unittest
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-EXPERIMENTS = pathlib.Path(__file__).resolve().parents[1] / "experiments"
+EXPERIMENTS = pathlib.Path(__file__).resolve().parents[2] / "experiments"
 sys.path.insert(0, str(EXPERIMENTS))
 
 import fitting  # noqa: E402

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The slow reference itself is held to the numbers of docs/scheme.md, so that it can be trusted as an oracle.
 
-#include "SubdivisionReference.h"
+#include "common/SubdivisionReference.h"
 #include "SubdivisionNumbers.h"
 
 #include "itkGTest.h"

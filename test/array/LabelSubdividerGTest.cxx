@@ -4,7 +4,7 @@
 
 #include "NonOscillatorySubdivision/LabelSubdivider.h"
 #include "SubdividerTestHelpers.h"
-#include "SubdivisionReference.h"
+#include "common/SubdivisionReference.h"
 
 #include <gtest/gtest.h>
 

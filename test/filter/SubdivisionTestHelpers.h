@@ -2,7 +2,7 @@
 #ifndef SubdivisionTestHelpers_h
 #define SubdivisionTestHelpers_h
 
-#include "SubdivisionReference.h"
+#include "common/SubdivisionReference.h"
 
 #include "itkConstantBoundaryCondition.h"
 #include "itkImage.h"

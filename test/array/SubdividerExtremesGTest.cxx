@@ -2,7 +2,7 @@
 
 // Ends of the ranges of all element types, and callers who have chosen other floating-point arithmetic.
 
-#include "GeneratedCases.h"
+#include "common/GeneratedCases.h"
 #include "NonOscillatorySubdivision/LabelSubdivider.h"
 #include "RandomRun.h"
 

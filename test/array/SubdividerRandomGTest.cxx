@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "GeneratedCases.h"
+#include "common/GeneratedCases.h"
 #include "RandomRun.h"
 
 #include <cmath>

@@ -15,7 +15,7 @@ if(CASTXML_EXECUTABLE)
       --castxml-cc-gnu "(" "${CMAKE_CXX_COMPILER}" -std=c++17 ")" -std=c++17 -fsized-deallocation
       -DITK_WRAPPING_PARSER -DITK_MANUAL_INSTANTIATION
       "-I$<JOIN:${include_directories},;-I>"
-      -o "${CMAKE_CURRENT_BINARY_DIR}/ParsedHeaders.xml" "${CMAKE_CURRENT_SOURCE_DIR}/ParsedHeaders.cxx"
+      -o "${CMAKE_CURRENT_BINARY_DIR}/ParsedHeaders.xml" "${CMAKE_CURRENT_LIST_DIR}/ParsedHeaders.cxx"
     COMMAND_EXPAND_LISTS
   )
 else()
@@ -52,7 +52,7 @@ foreach(kind Adaptor LabelMap SpecialCoordinates Matrices VariableLength LongDou
     add_test(
       NAME ${test}
       COMMAND "${CMAKE_CXX_COMPILER}" -std=c++17 -fsyntax-only -DREFUSED_IMAGE=${kind}
-        "-I$<JOIN:${include_directories},;-I>" "${CMAKE_CURRENT_SOURCE_DIR}/RefusedImages.cxx"
+        "-I$<JOIN:${include_directories},;-I>" "${CMAKE_CURRENT_LIST_DIR}/RefusedImages.cxx"
       COMMAND_EXPAND_LISTS
     )
     set_tests_properties(${test} PROPERTIES PASS_REGULAR_EXPRESSION "${message}")

@@ -3,7 +3,7 @@
 """SubdivideVolume where the system fails it: disks, limits, folders and streams. The old output is intact or the new
 one complete, nothing else was touched, and the exit code is 0 only where the output is complete.
 
-    python3 test/subdivide_volume_faults_test.py --steps 20 PROGRAM
+    python3 test/programs/subdivide_volume_faults_test.py --steps 20 PROGRAM
 
 tries so many sizes and limits for each kind of output and prints how many; without arguments, a few with the program
 that the environment variable SUBDIVIDE_VOLUME names."""

@@ -35,7 +35,7 @@ set_tests_properties(NonOscillatorySubdivisionPackage.FindPackage PROPERTIES
 add_test(
   NAME NonOscillatorySubdivisionPackage.NamesNoFolderOfTheBuild
   COMMAND "${CMAKE_COMMAND}" "-DPREFIX=${installed_prefix}" "-DFORBIDDEN=${PROJECT_SOURCE_DIR};${hwy_DIR}"
-    -P "${CMAKE_CURRENT_SOURCE_DIR}/FindForbiddenText.cmake"
+    -P "${CMAKE_CURRENT_LIST_DIR}/FindForbiddenText.cmake"
 )
 set_tests_properties(NonOscillatorySubdivisionPackage.NamesNoFolderOfTheBuild PROPERTIES
   FIXTURES_REQUIRED installed_package

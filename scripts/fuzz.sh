@@ -31,11 +31,11 @@ for fuzzer in "${fuzzers[@]}"; do
   mkdir -p "build/fuzz/corpus-$fuzzer" "build/fuzz/found-$fuzzer"
   options=(-max_len=2048 -dict="$PWD/test/fuzz/headers.dict")
   if [[ $fuzzer == SubdividerFuzz ]]; then
-    # Some forty choices, and the values of the elements, which are repeated.
-    options=(-max_len=128)
+    # Some forty choices, and the values of the elements, which are repeated. How often a loop runs is one of the choices.
+    options=(-max_len=128 -use_counters=0)
   fi
   # Files of a run lie in memory.
   (cd "build/fuzz/found-$fuzzer" && TMPDIR=/dev/shm "../$fuzzer" -jobs="$processes" -workers="$processes" \
-    -runs=$(((runs + processes - 1) / processes)) -timeout=60 -entropic=0 -print_final_stats=1 "${options[@]}" \
+    -runs=$(((runs + processes - 1) / processes)) -timeout=60 -reload=60 -entropic=0 -print_final_stats=1 "${options[@]}" \
     "../corpus-$fuzzer" "$kept")
 done

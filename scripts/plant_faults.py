@@ -28,7 +28,7 @@ sys.dont_write_bytecode = True
 
 from faults import FAULTS, Fault  # noqa: E402  (the path is set above)
 
-COPIED = ("include", "src", "test")
+COPIED = ("cmake", "include", "src", "test")
 LONGEST_TEST = 1200  # seconds; a fault may make a loop endless
 CASES = "60"  # of each generated test, unless the environment says otherwise: fewer than its own number, for speed
 FAILED_TEST = re.compile(r"^\[  FAILED  \] ([\w/.]+)", re.MULTILINE)

@@ -6,6 +6,10 @@
 
 #include <cfenv>
 
+#if defined(__x86_64__) || defined(_M_X64)
+#  define NonOscillatorySubdivision_HAS_MXCSR
+#endif
+
 namespace itk
 {
 namespace Subdivision
@@ -27,6 +31,9 @@ public:
 
 private:
   std::fenv_t m_Former;
+#ifdef NonOscillatorySubdivision_HAS_MXCSR
+  unsigned int m_FormerControl; // of the vector registers
+#endif
 };
 
 } // namespace Subdivision

@@ -28,19 +28,30 @@ GetDistance(const ArrayAxis & axis)
 }
 
 /** The axes in the order of memory, the fastest first. It follows the input: that of the output would make results
- * depend on the box that is asked for. */
+ * depend on the box that is asked for. An axis of one element may have any stride. Where it is subdivided, the whole
+ * has one element along it, too, and it follows the axis before it: the order of the subdivided axes, in which children
+ * are summed up, is then that of all parts of an input. */
 std::vector<std::size_t>
-OrderAxes(const std::vector<ArrayAxis> & axes)
+OrderAxes(const std::vector<ArrayAxis> & axes, const Box & whole, const Flags & subdivided)
 {
+  const auto               isLong = [&](const std::size_t axis) { return subdivided[axis] && whole[axis].Size > 1; };
   std::vector<std::size_t> order(axes.size());
   std::iota(order.begin(), order.end(), 0);
-  if (GetDistance(axes.front()) > GetDistance(axes.back()))
+  const auto first = std::find_if(order.begin(), order.end(), isLong);
+  const auto last = std::find_if(order.rbegin(), order.rend(), isLong);
+  if (first != order.end() && GetDistance(axes[*first]) > GetDistance(axes[*last]))
   {
-    // Axes of size 1 may have any stride: where strides are equal, they are in the order of the others.
     std::reverse(order.begin(), order.end());
   }
-  std::stable_sort(order.begin(), order.end(), [&axes](const std::size_t a, const std::size_t b) {
-    return GetDistance(axes[a]) < GetDistance(axes[b]);
+  std::vector<std::uint64_t> distances(axes.size());
+  std::uint64_t              before = 0;
+  for (const std::size_t axis : order)
+  {
+    distances[axis] = subdivided[axis] && !isLong(axis) ? before : GetDistance(axes[axis]);
+    before = isLong(axis) ? distances[axis] : before;
+  }
+  std::stable_sort(order.begin(), order.end(), [&distances](const std::size_t a, const std::size_t b) {
+    return distances[a] < distances[b];
   });
   return order;
 }
@@ -116,7 +127,7 @@ RunPlan::RunPlan(const ConstArrayView & input, const Box & whole, const ArrayVie
   , FirstConstant(whole[0].First)
   , ArrayAxes(whole.size())
 {
-  std::vector<std::size_t> order = OrderAxes(input.Axes);
+  std::vector<std::size_t> order = OrderAxes(input.Axes, whole, options.SubdividedAxes);
   const std::size_t        inner = CountInnerAxes(order, whole, options.SubdividedAxes);
   std::rotate(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(inner), order.end());
   for (const std::size_t number : order)

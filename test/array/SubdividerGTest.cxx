@@ -137,6 +137,43 @@ TEST(Subdivider, AxesInAnyOrderOfMemory)
   });
 }
 
+/** Of one element, an axis may have the stride of another one; its place in memory must not depend on the part. */
+TEST(Subdivider, AxesOfOneElementHaveTheSamePlaceInAllParts)
+{
+  const Flags allSubdivided{ true, true, true };
+  const Flags twoSubdivided{ true, false, true };
+  for (const Scheme & scheme : Schemes)
+  {
+    for (const Flags & subdivided : { twoSubdivided, allSubdivided })
+    {
+      for (const bool isReversed : { false, true })
+      {
+        const Box     box{ { -8, 32 }, { 4, subdivided[1] ? 1u : 3u }, { 5, 1 } };
+        const Options options = MakeOptions(subdivided, scheme);
+        TestLayout    layout = TestLayout::Dense(3);
+        if (isReversed)
+        {
+          std::reverse(layout.Order.begin(), layout.Order.end());
+        }
+        const TestArray input = Cut(MakeInput(ElementType::UInt8, box, 3), box, layout);
+        const TestArray whole = MakeWhole(input, ElementType::Float, options);
+        Box             partBox = whole.GetBox();
+        partBox[1] = { partBox[1].First + 1, 1 };
+        // One element more between the rows along one axis of one element and those along the other.
+        for (const std::ptrdiff_t free : { 0, 1 })
+        {
+          layout.Free = { 0, free, 2 * free };
+          const Box request = Subdivider::GetInputRequest(partBox, box, options);
+          TestArray part(ElementType::Float, partBox, layout);
+          Workspace workspace;
+          Subdivide(Cut(input, request, layout), box, part, options, 1, workspace);
+          EXPECT_EQ(CountDifferences(part, whole), 0u) << scheme.Name << ' ' << isReversed << ' ' << free;
+        }
+      }
+    }
+  }
+}
+
 /** Whether rows along axis 0 of two-dimensional arrays of bytes are those of the whole. */
 bool
 HasRowsOf(const TestArray & part, const TestArray & whole)

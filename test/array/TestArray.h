@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 /** How an array lies in memory: its axes in order, the fastest first, the sign of each one's stride, and how many
@@ -142,16 +143,16 @@ public:
     {
       count *= interval.Size;
     }
+    Index index(box.size());
     for (std::uint64_t number = 0; number < count; ++number)
     {
-      Index         index;
       std::uint64_t rest = number;
-      for (const auto & interval : box)
+      for (std::size_t axis = 0; axis < box.size(); ++axis)
       {
-        index.push_back(interval.First + static_cast<std::int64_t>(rest % interval.Size));
-        rest /= interval.Size;
+        index[axis] = box[axis].First + static_cast<std::int64_t>(rest % box[axis].Size);
+        rest /= box[axis].Size;
       }
-      visit(index);
+      visit(std::as_const(index));
     }
   }
 

@@ -282,39 +282,46 @@ FieldOn(const Grid<D> & grid, const Axes<D> & chosen, long margin, const TFuncti
   return MakeGrid<D>(box.lower, box.size, function);
 }
 
-/** G_A: the product of the second differences along the axes of A. */
+/** G_A, as a function of the sample: the product of the second differences along the axes of A. */
 template <unsigned int D>
-double
-SecondDifference(const Grid<D> & g, const Axes<D> & a, const Index<D> & j)
+auto
+SecondDifference(const Grid<D> & g, const Axes<D> & a)
 {
-  return TensorSum<D>(g, TapsAlong<D>(a, { { -1, 1.0 }, { 0, -2.0 }, { 1, 1.0 } }), j);
+  const auto taps = TapsAlong<D>(a, { { -1, 1.0 }, { 0, -2.0 }, { 1, 1.0 } });
+  return [&g, taps](const Index<D> & j) { return TensorSum<D>(g, taps, j); };
 }
 
-/** H_A: the sum of the magnitudes of the first differences over the cells that touch sample j. */
+/** H_A, as a function of the sample: the sum of the magnitudes of the first differences over the cells that touch it.
+ */
 template <unsigned int D>
-double
-RoughnessAround(const Grid<D> & g, const Axes<D> & a, const Index<D> & j)
+auto
+RoughnessAround(const Grid<D> & g, const Axes<D> & a)
 {
   const auto difference = TapsAlong<D>(a, { { 0, -1.0 }, { 1, 1.0 } });
-  double     sum = 0.0;
-  for (const Index<D> & cell : OffsetsAlong<D>(a, -1, 0))
-  {
-    sum += std::abs(TensorSum<D>(g, difference, Sum<D>(j, cell)));
-  }
-  return sum;
+  return [&g, difference, cells = OffsetsAlong<D>(a, -1, 0)](const Index<D> & j) {
+    double sum = 0.0;
+    for (const Index<D> & cell : cells)
+    {
+      sum += std::abs(TensorSum<D>(g, difference, Sum<D>(j, cell)));
+    }
+    return sum;
+  };
 }
 
-/** K_A without the tension: the smallest H_A of the window of five samples along each axis of A. */
+/** K_A without the tension, as a function of the sample: the smallest H_A of the window of five samples along each axis
+ * of A. */
 template <unsigned int D>
-double
-SmallestAround(const Grid<D> & h, const Axes<D> & a, const Index<D> & j)
+auto
+SmallestAround(const Grid<D> & h, const Axes<D> & a)
 {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const Index<D> & offset : OffsetsAlong<D>(a, -2, 2))
-  {
-    smallest = std::min(smallest, h(Sum<D>(j, offset)));
-  }
-  return smallest;
+  return [&h, window = OffsetsAlong<D>(a, -2, 2)](const Index<D> & j) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Index<D> & offset : window)
+    {
+      smallest = std::min(smallest, h(Sum<D>(j, offset)));
+    }
+    return smallest;
+  };
 }
 
 /** E_A: the second differences along the axes of A, clamped to ±tension times the smallest roughness nearby.
@@ -327,11 +334,12 @@ ClampedDifference(const Grid<D> & g, const Axes<D> & a, double tension)
   {
     return g;
   }
-  const Grid<D> h = FieldOn<D>(g, a, -1, [&](const Index<D> & j) { return RoughnessAround<D>(g, a, j); });
+  const Grid<D> h = FieldOn<D>(g, a, -1, RoughnessAround<D>(g, a));
+  const auto    smallest = SmallestAround<D>(h, a);
+  const auto    difference = SecondDifference<D>(g, a);
   return FieldOn<D>(g, a, -3, [&](const Index<D> & j) {
-    const double threshold = tension * SmallestAround<D>(h, a, j);
-    const double difference = SecondDifference<D>(g, a, j);
-    return std::min(std::max(difference, -threshold), threshold);
+    const double threshold = tension * smallest(j);
+    return std::min(std::max(difference(j), -threshold), threshold);
   });
 }
 
@@ -558,44 +566,42 @@ private:
     return e + std::min(std::max(a - e, -t), t);
   }
 
-  /** L: the sum of the second differences along the subdivided axes. */
-  double
-  Laplacian(const Grid<D> & g, const Index<D> & j) const
+  /** The sum of a function of the sample along each subdivided axis. */
+  template <typename TAlong>
+  auto
+  SumAlongAxes(const Grid<D> & g, const TAlong & along) const
   {
-    double sum = 0.0;
+    std::vector<decltype(along(g, Axes<D>{}))> summands;
     for (unsigned int w = 0; w < D; ++w)
     {
       Axes<D> axis{};
       axis[w] = m_Settings.axes[w];
-      sum += axis[w] ? SecondDifference<D>(g, axis, j) : 0.0;
+      if (axis[w])
+      {
+        summands.push_back(along(g, axis));
+      }
     }
-    return sum;
+    return [summands](const Index<D> & j) {
+      double sum = 0.0;
+      for (const auto & summand : summands)
+      {
+        sum += summand(j);
+      }
+      return sum;
+    };
   }
 
-  /** H of the restored scheme: the differences to both neighbours along each subdivided axis. */
-  double
-  Variation(const Index<D> & j) const
-  {
-    double sum = 0.0;
-    for (unsigned int w = 0; w < D; ++w)
-    {
-      Axes<D> axis{};
-      axis[w] = m_Settings.axes[w];
-      sum += axis[w] ? RoughnessAround<D>(m_Padded, axis, j) : 0.0;
-    }
-    return sum;
-  }
-
-  /** P f and H. */
+  /** P f, by L, the sum of the second differences along the subdivided axes; and H of the restored scheme, the
+   * differences to both neighbours along each of them. */
   void
   Sharpen()
   {
     const Axes<D> & axes = m_Settings.axes;
-    const Grid<D>   l = FieldOn<D>(m_Padded, axes, -1, [&](const Index<D> & j) { return Laplacian(m_Padded, j); });
-    m_Sharpened = FieldOn<D>(m_Padded, axes, -2, [&](const Index<D> & j) {
-      return m_Padded(j) - 15.0 / 16 * l(j) - 9.0 / 64 * Laplacian(l, j);
-    });
-    m_Variation = FieldOn<D>(m_Padded, axes, -1, [&](const Index<D> & j) { return Variation(j); });
+    const Grid<D>   l = FieldOn<D>(m_Padded, axes, -1, SumAlongAxes(m_Padded, SecondDifference<D>));
+    const auto      ll = SumAlongAxes(l, SecondDifference<D>);
+    m_Sharpened = FieldOn<D>(
+      m_Padded, axes, -2, [&](const Index<D> & j) { return m_Padded(j) - 15.0 / 16 * l(j) - 9.0 / 64 * ll(j); });
+    m_Variation = FieldOn<D>(m_Padded, axes, -1, SumAlongAxes(m_Padded, RoughnessAround<D>));
   }
 
   Settings<D>        m_Settings;

@@ -107,7 +107,7 @@ FAULTS = [
     Fault("region: skipped children of a row", "src/array/RowWriter.cxx",
           "m_Buffer.data() + m_Skipped * m_Bytes", "m_Buffer.data()"),
     Fault("region: order of memory by the output", "src/array/RunPlan.cxx",
-          "OrderAxes(input.Axes)", "OrderAxes(output.Axes)"),
+          "OrderAxes(input.Axes, ", "OrderAxes(output.Axes, "),
 
     # Labels.
     Fault("labels: a tie goes to the later label", "src/array/LabelElection.cxx",

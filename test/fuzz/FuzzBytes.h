@@ -35,6 +35,14 @@ public:
     return static_cast<unsigned int>(this->Byte() % number);
   }
 
+  /** A number from 0 to another one; of two bytes where a byte does not hold that. */
+  std::uint64_t
+  UpTo(const std::uint64_t last)
+  {
+    const std::uint64_t low = this->Byte();
+    return (last < 256 ? low : low + 256u * this->Byte()) % (last + 1);
+  }
+
   /** All that is left. */
   std::string
   Rest()

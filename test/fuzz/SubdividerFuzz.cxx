@@ -43,11 +43,11 @@ public:
     const Box box = this->ChooseBox(all);
     TestArray part(m_OutputType, box, this->ChooseLayout());
     // To start a thread takes longer than all else.
-    this->Run(box, part, m_Bytes.Below(16) == 0 ? 2 : 1);
+    this->Run(box, part, m_Bytes.Below(16) == 15 ? 2 : 1);
     // Along three axes at once, the reference takes longer than a hundred other runs.
     const auto & axes = m_Reference.axes;
     const bool   isSlow = std::count(axes.begin(), axes.end(), true) == 3;
-    if (m_IsFinite && (!isSlow || m_Bytes.Below(32) == 0))
+    if (m_IsFinite && (!isSlow || m_Bytes.Below(16) == 15))
     {
       this->CompareWithReference(box, part);
     }
@@ -66,15 +66,17 @@ private:
   ChooseWhole()
   {
     // The reference is slow along three axes, and most of what can go wrong does so along one. Some hundred children
-    // have it all: the insides of the stencils, and both ends.
+    // have it all: the insides of the stencils, and both ends. Few runs are so long that they are cut into tiles.
     const unsigned int    kind = m_Bytes.Below(64);
     Box                   whole(kind < 48 ? 1 : kind < 63 ? 2 : 3);
     constexpr std::size_t longestRuns[] = { 40, 16, 12 };
     const std::size_t     longAxis = m_Bytes.Below(whole.size());
+    const std::uint64_t   times = m_Bytes.Below(64) == 63 ? 32 : 1;
     for (std::size_t axis = 0; axis < whole.size(); ++axis)
     {
-      const std::uint64_t longest = axis == longAxis ? longestRuns[whole.size() - 1] : 4;
-      whole[axis] = { static_cast<std::int64_t>(m_Bytes.Byte()) - 128, 1 + m_Bytes.Below(longest) };
+      const bool          isLong = axis == longAxis;
+      const std::uint64_t size = 1 + m_Bytes.Below(isLong ? longestRuns[whole.size() - 1] : 4);
+      whole[axis] = { static_cast<std::int64_t>(m_Bytes.Byte()) - 128, isLong ? size * times : size };
     }
     return whole;
   }
@@ -104,9 +106,9 @@ private:
     Box box;
     for (const Interval & interval : outer)
     {
-      const std::uint64_t skipped = m_Bytes.Below(interval.Size);
+      const std::uint64_t skipped = m_Bytes.UpTo(interval.Size - 1);
       box.push_back(
-        { interval.First + static_cast<std::int64_t>(skipped), 1 + m_Bytes.Below(interval.Size - skipped) });
+        { interval.First + static_cast<std::int64_t>(skipped), 1 + m_Bytes.UpTo(interval.Size - skipped - 1) });
     }
     return box;
   }
@@ -179,8 +181,7 @@ private:
   {
     const Box       request = Subdivider::GetInputRequest(box, m_Whole, m_Options);
     const TestArray input = Cut(m_Input, request, m_InputLayout);
-    Workspace       workspace;
-    const auto      written = Subdivide(input, m_Whole, output, m_Options, threads, workspace);
+    const auto      written = Subdivide(input, m_Whole, output, m_Options, threads, m_Workspace);
     FuzzExpect(written == CountElements(box), "not every element was written");
   }
 
@@ -211,7 +212,7 @@ private:
     Index3           child{};
     for (std::size_t axis = 0; axis < box.size(); ++axis)
     {
-      index.push_back(box[axis].First + static_cast<std::int64_t>(m_Bytes.Below(box[axis].Size)));
+      index.push_back(box[axis].First + static_cast<std::int64_t>(m_Bytes.UpTo(box[axis].Size - 1)));
       child[axis] = static_cast<long>(index[axis] - (m_Reference.axes[axis] ? 2 : 1) * m_Whole[axis].First);
     }
     const double computed = output.Get(index);
@@ -246,6 +247,7 @@ private:
   ElementType               m_OutputType;
   TestArray                 m_Input;
   TestLayout                m_InputLayout;
+  Workspace                 m_Workspace;
   Options                   m_Options;
   FuzzedReference::Settings m_Reference;
   unsigned int              m_Scheme = 0;

@@ -160,7 +160,12 @@ def prepend_level(image: Image, axes: Sequence[int], levels: int, array_name: st
     assert attributes is not None
     described = attributes.get("ome", attributes)
     described["multiscales"][0]["datasets"].insert(0, dataset(image, axes, levels, array_name))
-    zarr.open_group(image.path, mode="r+").attrs.update(attributes)
+    group = zarr.open_group(image.path, mode="r+")
+    # A copy of all descriptions, where there is one, comes first for readers, and would not know of the level.
+    is_consolidated = group.metadata.consolidated_metadata is not None
+    zarr.open_group(image.path, mode="r+", use_consolidated=False).attrs.update(attributes)
+    if is_consolidated:
+        zarr.consolidate_metadata(image.path)
 
 
 def dataset(image: Image, axes: Sequence[int], levels: int, array_name: str) -> dict[str, Any]:

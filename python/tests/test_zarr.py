@@ -133,6 +133,20 @@ def test_a_level_before_the_finest_one(tmp_path, client, volume, version):
     np.testing.assert_array_equal(np.asarray(node.data[1]), volume)
 
 
+@pytest.mark.parametrize("version", ["0.4", "0.5"])
+@pytest.mark.filterwarnings("ignore:Consolidated metadata")
+def test_a_level_in_consolidated_metadata(tmp_path, client, volume, version):
+    pytest.importorskip("ome_zarr")
+    source = str(tmp_path / "in.zarr")
+    write_ome(source, volume, version)
+    zarr.consolidate_metadata(source)
+    zarr_subdivision.subdivide(source, None, client)
+    group = zarr.open_group(source, mode="r")
+    assert group.metadata.consolidated_metadata is not None
+    finest = multiscale(source)["datasets"][0]["path"]
+    np.testing.assert_array_equal(group[finest][...], subdivide(volume))
+
+
 def test_time_and_channels_are_not_subdivided(tmp_path, client, volume):
     source, target = str(tmp_path / "in.zarr"), str(tmp_path / "out.zarr")
     series = volume[:24].reshape(2, 3, 4, 50, 60)

@@ -236,6 +236,42 @@ class PieceFaults(ProgramTest):
         after = contents(self.path("pieces"))
         self.assertEqual({key: after[key] for key in before}, before)
 
+    def test_slices_change_places_between_pieces(self):
+        """Their number, sizes and times stay."""
+        os.mkdir(self.path("scan"))
+        self.assertEqual(self.run_program(self.path("in.mha"), self.path("scan/"), "--axes", "x").returncode, 0)
+        slices = sorted(glob.glob(self.path("scan/*")))
+        self.assertGreater(len(slices), 4)
+        command = (self.path("scan"), self.path("pieces/out.mha"))
+        self.assertEqual(self.run_program("--piece", "1/2", *command).returncode, 0)
+        os.rename(slices[1], self.path("aside"))
+        os.rename(slices[-2], slices[1])
+        os.rename(self.path("aside"), slices[-2])
+        result = self.run_program("--piece", "2/2", *command)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("another state of the input", result.stderr)
+
+    def test_pieces_of_another_user(self):
+        """What may not be joined, or not be read, is told as such, and stays."""
+        as_user = {"user": 65534} if os.geteuid() == 0 else {}
+        if as_user and subprocess.run([PROGRAM, "--version"], capture_output=True, check=False, **as_user).returncode:
+            self.skipTest("root may write everywhere, and cannot become another user here")
+        os.chmod(self.folder, 0o777)
+        os.chmod(self.path("pieces"), 0o777)
+        self.assertEqual(self.piece("1/2", "out.mha").returncode, 0)
+        folder = self.path("pieces/.out.mha.pieces")
+        for mode, status in ((0o555, 0), (0o000, 1)):
+            os.chmod(os.path.join(folder, "agreement"), mode & 0o444)
+            os.chmod(folder, mode)
+            for piece, code in (("2/2", 1), ("status", status)):
+                result = subprocess.run(self.get_command(piece, "out.mha", "--quiet"), capture_output=True, text=True,
+                                        check=False, timeout=300, **as_user)
+                self.assertEqual(result.returncode, code, (mode, piece, result.stderr))
+                self.assertEqual("Permission denied" in result.stderr, code == 1, (mode, piece, result.stderr))
+            os.chmod(folder, 0o755)
+        os.chmod(os.path.join(folder, "agreement"), 0o644)
+        self.assertEqual(self.piece("status", "out.mha").stdout, "missing 2 of 2\n")
+
 
 if __name__ == "__main__":
     if not PROGRAM:

@@ -42,6 +42,12 @@ MakeOwnFolder(const fs::path & start, std::error_code & error)
   return folder;
 }
 
+bool
+IsMissing(const std::error_code & error)
+{
+  return error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory;
+}
+
 std::optional<unsigned int>
 ParseNumber(const std::string & text)
 {
@@ -88,7 +94,14 @@ PieceFolder::Fail(const std::string & reason) const
 std::optional<unsigned int>
 PieceFolder::FindNumberOfPieces(const fs::path & output)
 {
-  return ParseNumber(Find(ReadAgreement(GetFolder(output) / AgreementName), PiecesKey));
+  const fs::path  agreement = GetFolder(output) / AgreementName;
+  std::error_code error;
+  fs::status(agreement, error);
+  if (error && !IsMissing(error))
+  {
+    throw std::runtime_error("cannot read " + agreement.string() + ": " + error.message());
+  }
+  return ParseNumber(Find(ReadAgreement(agreement), PiecesKey));
 }
 
 std::optional<unsigned int>
@@ -103,6 +116,11 @@ PieceFolder::TryToJoin(const PieceAgreement & agreement)
   m_Agreement = OpenToLock(m_Folder / AgreementName);
   if (!m_Agreement.IsOpen())
   {
+    const std::error_code error = GetLastError();
+    if (!IsMissing(error))
+    {
+      this->Fail("its pieces in " + m_Folder.string() + " cannot be joined: " + error.message());
+    }
     return false;
   }
   const PieceAgreement theirs = ReadAgreement(m_Folder / AgreementName);

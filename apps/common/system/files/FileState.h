@@ -5,8 +5,9 @@
 #include <filesystem>
 #include <string>
 
-/** The number, bytes and latest time of the files of an image, in words that differ when one of them is changed: all of
- * a folder but hidden ones, or one file with the data files that may be beside it. */
+/** The number, bytes, latest time and a checksum of the names, sizes and times of the files of an image, in words that
+ * differ when one of them is changed or replaced: all of a folder but hidden ones, or one file with the data files that
+ * may be beside it. */
 std::string
 DescribeFiles(const std::filesystem::path & image);
 

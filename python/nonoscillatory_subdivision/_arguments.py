@@ -7,14 +7,15 @@ import os
 from collections.abc import Sequence
 from numbers import Real
 from operator import index
-from typing import Any, Protocol
+from typing import Any, Protocol, SupportsIndex
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from . import _core
 
-Boundary = str | float
+Axes = SupportsIndex | Sequence[SupportsIndex] | NDArray[np.integer[Any]]
+Boundary = str | float | np.floating[Any] | np.integer[Any]
 Region = Sequence[slice] | slice
 
 
@@ -70,14 +71,14 @@ def checked_dimension(dimension: int, channel_axis: int | None) -> int | None:
     return channel_axis
 
 
-def checked_axis(axis: int, dimension: int, name: str) -> int:
+def checked_axis(axis: SupportsIndex, dimension: int, name: str) -> int:
     number = checked_index(axis, name)
     if not -dimension <= number < dimension:
         raise ValueError(f"{name} {axis} is none of the {dimension} axes")
     return number % dimension
 
 
-def checked_axes(axes: int | Sequence[int] | None, dimension: int, channel_axis: int | None) -> tuple[int, ...]:
+def checked_axes(axes: Axes | None, dimension: int, channel_axis: int | None) -> tuple[int, ...]:
     """The axes to subdivide, in rising order. Default: all but the channels, the last three at most."""
     if axes is None:
         return tuple(axis for axis in range(dimension) if axis != channel_axis)[-3:]

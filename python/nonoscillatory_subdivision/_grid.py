@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arguments import checked_axes, checked_levels
+from ._arguments import Axes, checked_axes, checked_levels
 
 
 def first_child(levels: int) -> float:
@@ -22,7 +22,7 @@ def subdivided_grid(
     origin: ArrayLike,
     direction: ArrayLike | None = None,
     *,
-    axes: int | Sequence[int] | None = None,
+    axes: Axes | None = None,
     levels: int = 1,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     r"""Spacing and origin of a subdivided image.

@@ -8,7 +8,7 @@ from typing import Any, TypeVar, overload
 
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
-from ._arguments import ArrayOfAKind, Boundary, Region
+from ._arguments import ArrayOfAKind, Axes, Boundary, Region
 from ._run import Progress
 from ._task import Task
 
@@ -23,7 +23,7 @@ def subdivide_labels(
     scheme: str = ...,
     tension: float = ...,
     boundary: Boundary = ...,
-    axes: int | Sequence[int] | None = ...,
+    axes: Axes | None = ...,
     levels: int = ...,
     dtype: DTypeLike | None = ...,
     threads: int | None = ...,
@@ -37,7 +37,7 @@ def subdivide_labels(
     scheme: str = ...,
     tension: float = ...,
     boundary: Boundary = ...,
-    axes: int | Sequence[int] | None = ...,
+    axes: Axes | None = ...,
     levels: int = ...,
     region: Region | None = ...,
     out: NDArray[Any] | None = ...,
@@ -53,7 +53,7 @@ def subdivide_labels(
     scheme: str = ...,
     tension: float = ...,
     boundary: Boundary = ...,
-    axes: int | Sequence[int] | None = ...,
+    axes: Axes | None = ...,
     levels: int = ...,
     dtype: DTypeLike | None = ...,
     threads: int | None = ...,
@@ -66,7 +66,7 @@ def subdivide_labels(
     scheme: str = "restored",
     tension: float = 0.0,
     boundary: Boundary = "nearest",
-    axes: int | Sequence[int] | None = None,
+    axes: Axes | None = None,
     levels: int = 1,
     region: Region | None = None,
     out: NDArray[Any] | None = None,

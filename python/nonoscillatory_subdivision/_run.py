@@ -46,6 +46,8 @@ def is_in_order(array: NDArray[Any]) -> bool:
 
 def to_native(array: NDArray[Any]) -> NDArray[Any]:
     """The same values as the array layer takes them from an array in C's order; a copy only where it must be."""
+    if array.dtype.kind == "b" and as_integers(array).max() > 1:
+        array = as_integers(array) != 0  # any byte but 0 is True
     array = as_integers(array)
     if is_native(array) and is_in_order(array):
         return array

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from . import _arguments, images
-from ._arguments import Boundary, Region
+from ._arguments import Axes, Boundary, Region
 from ._run import Indices, Progress, Run, doubled_shape
 
 
@@ -20,7 +20,7 @@ class Task:
     scheme: str
     tension: float
     boundary: Boundary
-    axes: int | Sequence[int] | None
+    axes: Axes | None
     levels: int
     channel_axis: int | None
     dtype: DTypeLike | None

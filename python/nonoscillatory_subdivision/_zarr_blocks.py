@@ -15,7 +15,6 @@ import zarr
 from numpy.typing import NDArray
 
 from . import _arguments, _core
-from ._arguments import Boundary
 from ._run import Indices, Run
 
 # The voxels of a block, at most, unless a chunk has more: large enough to keep the halo small.
@@ -33,7 +32,7 @@ class Job:
     dtype: str
     scheme: str
     tension: float
-    boundary: Boundary
+    boundary: str | float
     axes: tuple[int, ...]
     levels: int
     is_labels: bool

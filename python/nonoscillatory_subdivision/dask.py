@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from . import _arguments, _core, images
-from ._arguments import Boundary
+from ._arguments import Axes, Boundary
 from ._run import real_type
 from ._task import Task
 
@@ -25,7 +25,7 @@ def subdivide(
     scheme: str = "nonoscillatory",
     tension: float = 2.0,
     boundary: Boundary = "nearest",
-    axes: int | Sequence[int] | None = None,
+    axes: Axes | None = None,
     levels: int = 1,
     dtype: DTypeLike | None = None,
     channel_axis: int | None = None,
@@ -67,7 +67,7 @@ def subdivide_labels(
     scheme: str = "restored",
     tension: float = 0.0,
     boundary: Boundary = "nearest",
-    axes: int | Sequence[int] | None = None,
+    axes: Axes | None = None,
     levels: int = 1,
     dtype: DTypeLike | None = None,
     channel_axis: int | None = None,

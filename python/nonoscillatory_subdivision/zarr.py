@@ -97,7 +97,7 @@ class _Wanted:
 
     scheme: str
     tension: float
-    boundary: Boundary
+    boundary: str | float
     axes: tuple[int, ...]
     levels: int
     is_labels: bool
@@ -113,7 +113,11 @@ class _Place:
             if image.multiscale is None:
                 raise ValueError(f"{image.path} is a plain array: it has no pyramid to put a level before")
             target = image.path
+        if "://" in target:
+            raise ValueError(f"{target} is no folder")
         self.folder = Path(target)
+        if not self._is_level and Path(image.array_path).resolve() in self.folder.resolve().parents:
+            raise ValueError(f"{target} is within the input")
         self._name = None
         if image.multiscale is not None:
             self._finest = image.multiscale["datasets"][0]["path"]
@@ -199,7 +203,7 @@ class _Run:
         wanted = _Wanted(
             scheme=scheme if scheme is not None else "restored" if labels else "nonoscillatory",
             tension=float(tension) if tension is not None else 0.0 if labels else 2.0,
-            boundary=boundary,
+            boundary=boundary if isinstance(boundary, str) else float(boundary),
             axes=image.axes_to_subdivide(axes),
             levels=levels,
             is_labels=labels,

@@ -4,7 +4,7 @@
 import nonoscillatory_subdivision
 import numpy as np
 import pytest
-from nonoscillatory_subdivision import schemes, subdivide
+from nonoscillatory_subdivision import schemes, subdivide, subdivide_labels
 
 
 @pytest.fixture(scope="module")
@@ -189,6 +189,15 @@ def test_out_over_the_volume():
 def test_bool_is_computed_in_single_precision():
     mask = np.random.default_rng(5).random((8, 9)) < 0.5
     np.testing.assert_array_equal(subdivide(mask), subdivide(mask.astype(np.float32)))
+
+
+def test_any_byte_of_bool_but_0_is_true():
+    mask = np.zeros((12, 9), np.uint8)
+    mask[4:8] = np.arange(1, 37).reshape(4, 9) * 7
+    clean = mask != 0
+    assert subdivide(mask.view(bool)).tobytes() == subdivide(clean).tobytes()
+    result = subdivide_labels(mask.view(bool))
+    assert result.tobytes() == subdivide_labels(clean).tobytes()
 
 
 def test_half_precision_is_rounded_once():

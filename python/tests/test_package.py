@@ -78,6 +78,8 @@ def test_types(tmp_path):
         "from nonoscillatory_subdivision import schemes, subdivide, subdivide_labels, subdivided_grid\n"
         "volume = np.zeros((3, 4), np.int16)\n"
         "doubled: np.ndarray = subdivide(volume, scheme=schemes()[0], region=np.s_[:2], axes=(0, 1))\n"
+        "subdivide(volume, axes=np.array([0, 1]), boundary=np.float32(2))\n"
+        "subdivide(volume, axes=np.int64(1), boundary=3)\n"
         "class Image: ...\n"
         "image: Image = subdivide(Image(), levels=2)\n"
         "class Labelled:\n"

@@ -231,6 +231,10 @@ def test_nothing_is_overwritten(tmp_path, client, volume):
         zarr_subdivision.subdivide(source, str(target), client)
     with pytest.raises(ValueError, match="exists"):
         zarr_subdivision.subdivide(source, source, client)
+    with pytest.raises(ValueError, match="within the input"):
+        zarr_subdivision.subdivide(source, source + "/doubled", client)
+    with pytest.raises(ValueError, match="no folder"):
+        zarr_subdivision.subdivide(source, "s3://bucket/out", client)
     with pytest.raises(ValueError, match="no pyramid"):
         zarr_subdivision.subdivide(source, None, client)
     assert (target / "mine").read_text() == "mine"

@@ -9,6 +9,7 @@ from typing import Any, TypeVar, overload
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from ._arguments import ArrayOfAKind, Axes, Boundary, Region
+from ._dispatch import apply
 from ._run import Progress
 from ._task import Task
 
@@ -117,4 +118,4 @@ def subdivide_labels(
     dtype('bool')
     """
     task = Task(scheme, tension, boundary, axes, levels, channel_axis, dtype, is_labels=True)
-    return task.apply(labels, region, out, threads, progress)
+    return apply(task, labels, region, out, threads, progress)

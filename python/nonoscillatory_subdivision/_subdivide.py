@@ -9,6 +9,7 @@ from typing import Any, TypeVar, overload
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from ._arguments import ArrayOfAKind, Axes, Boundary, Region
+from ._dispatch import apply
 from ._run import Progress
 from ._task import Task
 
@@ -148,4 +149,4 @@ def subdivide(
     (4,)
     """
     task = Task(scheme, tension, boundary, axes, levels, channel_axis, dtype)
-    return task.apply(volume, region, out, threads, progress)
+    return apply(task, volume, region, out, threads, progress)

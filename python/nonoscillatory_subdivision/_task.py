@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a user asks for, applied to whatever kind of volume is given."""
+"""What a user asks for, applied to arrays."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from . import _arguments, images
+from . import _arguments
 from ._arguments import Axes, Boundary, Region
 from ._run import Indices, Progress, Run, doubled_shape
 
@@ -25,37 +25,6 @@ class Task:
     channel_axis: int | None
     dtype: DTypeLike | None
     is_labels: bool = False
-
-    def apply(
-        self,
-        volume: Any,
-        region: Region | None,
-        out: NDArray[Any] | None,
-        threads: int | None,
-        progress: Progress | None,
-    ) -> Any:
-        """An array, or an image of the volume's kind."""
-        if not isinstance(volume, np.ndarray):
-            if images.is_dask_array(volume):
-                from . import dask
-
-                _refuse({"region": region, "out": out, "threads": threads, "progress": progress}, volume)
-                return dask.apply(self, volume)
-            adapter = images.find_adapter(volume)
-            if adapter is not None:
-                _refuse({"region": region, "out": out}, volume)
-                return self._apply_to_image(adapter, volume, threads, progress)
-        return self.apply_to_array(_arguments.checked_volume(volume), region, out, threads, progress)
-
-    def _apply_to_image(
-        self, adapter: images.Adapter, image: Any, threads: int | None, progress: Progress | None
-    ) -> Any:
-        array, components = adapter.to_array(image)
-        if components is not None and self.channel_axis is not None:
-            raise TypeError(f"channel_axis {self.channel_axis}: the image has its components apart from its axes")
-        task = self if components is None else replace(self, channel_axis=components)
-        axes = task.checked_axes(array.ndim)
-        return adapter.from_array(task.apply(array, None, None, threads, progress), image, axes, self.levels)
 
     def apply_to_array(
         self,
@@ -109,10 +78,3 @@ class Task:
         if self.is_labels:
             return _arguments.label_type(input_type, self.dtype, out)
         return _arguments.result_type(input_type, self.dtype, out)
-
-
-def _refuse(options: dict[str, Any], volume: object) -> None:
-    """Options that only arrays in memory have."""
-    for name, value in options.items():
-        if value is not None:
-            raise TypeError(f"{name} is for arrays in memory, not for {type(volume).__name__}")

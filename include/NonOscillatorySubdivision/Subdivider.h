@@ -56,7 +56,9 @@ private:
  * out in the same order.
  *
  * The bytes of an element depend on the input, its order in memory among it, and the options alone: not on the box
- * asked for, the tiles or the threads. */
+ * asked for, the tiles or the threads. Strides tell that order, and the axes' numbers where two are equal, as those of
+ * axes of one element may be. Where axes lie otherwise, an axis of one element that is not subdivided needs a stride of
+ * its own, for the order of a part to be that of the whole. */
 class NonOscillatorySubdivision_EXPORT Subdivider : public TileRun
 {
 public:

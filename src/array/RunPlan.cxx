@@ -6,6 +6,7 @@
 #include "array/CheckedArithmetic.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace itk
@@ -24,13 +25,13 @@ std::uint64_t
 GetDistance(const ArrayAxis & axis)
 {
   const auto stride = static_cast<std::uint64_t>(axis.Stride);
-  return (axis.Stride < 0 ? 0 - stride : stride) - 1;
+  return axis.Stride == 0 ? std::numeric_limits<std::uint64_t>::max() : axis.Stride < 0 ? 0 - stride : stride;
 }
 
 /** The axes in the order of memory, the fastest first. It follows the input: that of the output would make results
- * depend on the box that is asked for. An axis of one element may have any stride. Where it is subdivided, the whole
- * has one element along it, too, and it follows the axis before it: the order of the subdivided axes, in which children
- * are summed up, is then that of all parts of an input. */
+ * depend on the box that is asked for. A subdivided axis of one element, of which the whole has no more, follows the
+ * one before it, whatever its stride: the order of the subdivided axes, in which children are summed up, is that of all
+ * parts of an input. */
 std::vector<std::size_t>
 OrderAxes(const std::vector<ArrayAxis> & axes, const Box & whole, const Flags & subdivided)
 {

@@ -180,9 +180,23 @@ private:
   Run(const Box & box, TestArray & output, const unsigned int threads)
   {
     const Box       request = Subdivider::GetInputRequest(box, m_Whole, m_Options);
-    const TestArray input = Cut(m_Input, request, m_InputLayout);
+    const TestArray input = Cut(m_Input, request, this->GetLayoutOf(request));
     const auto      written = Subdivide(input, m_Whole, output, m_Options, threads, m_Workspace);
     FuzzExpect(written == CountElements(box), "not every element was written");
+  }
+
+  /** How a part of the input lies in memory. Where an axis that is not subdivided has one element, its stride alone
+   * tells its place among the axes. */
+  TestLayout
+  GetLayoutOf(const Box & part) const
+  {
+    TestLayout layout = m_InputLayout;
+    for (std::size_t axis = 0; axis < part.size(); ++axis)
+    {
+      const bool isPlaced = m_Options.SubdividedAxes[axis] || part[axis].Size > 1;
+      layout.Free[axis] = std::max<std::ptrdiff_t>(layout.Free[axis], isPlaced ? 0 : 1);
+    }
+    return layout;
   }
 
   /** The image for the reference, its first index at 0. */

@@ -42,12 +42,6 @@ MakeOwnFolder(const fs::path & start, std::error_code & error)
   return folder;
 }
 
-bool
-IsMissing(const std::error_code & error)
-{
-  return error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory;
-}
-
 std::optional<unsigned int>
 ParseNumber(const std::string & text)
 {
@@ -96,8 +90,7 @@ PieceFolder::FindNumberOfPieces(const fs::path & output)
 {
   const fs::path  agreement = GetFolder(output) / AgreementName;
   std::error_code error;
-  fs::status(agreement, error);
-  if (error && !IsMissing(error))
+  if (!fs::exists(agreement, error) && error)
   {
     throw std::runtime_error("cannot read " + agreement.string() + ": " + error.message());
   }
@@ -117,7 +110,7 @@ PieceFolder::TryToJoin(const PieceAgreement & agreement)
   if (!m_Agreement.IsOpen())
   {
     const std::error_code error = GetLastError();
-    if (!IsMissing(error))
+    if (error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
     {
       this->Fail("its pieces in " + m_Folder.string() + " cannot be joined: " + error.message());
     }

@@ -52,10 +52,11 @@ private:
  * axis is subdivided and the types are the same, elements are copied exactly.
  *
  * Axes may lie in memory in any order and direction: that of their strides, and of their numbers where these are equal.
- * Rows of tiles run along the axis whose elements lie closest in the input, unless it is as short as the components of
- * pixels; the output is best laid out alike. The bytes of an element depend on the input, its order in memory among it,
- * and the options alone: not on the box asked for, the tiles or the threads. Where axes lie in another order than
- * that of their numbers, one that is not subdivided and has one element in a part needs a stride of its own there. */
+ * Rows of tiles run along the axis whose elements lie closest in the input, unless it is as short as the components
+ * of pixels; the output is best laid out alike.
+ * The bytes of an element depend on the input, its order in memory among it, and the options alone: not on the box
+ * asked for, the tiles or the threads. Where axes lie in another order than that of their numbers, one that is not
+ * subdivided and has one element in a part needs a stride of its own there. */
 class NonOscillatorySubdivision_EXPORT Subdivider : public TileRun
 {
 public:

@@ -120,6 +120,17 @@ DicomReader::DicomReader(std::string path, DicomSeries series, const InputOption
   m_Description.Metadata = ReadDicomMetadata(first.FileName);
 }
 
+std::vector<std::string>
+DicomReader::GetFiles() const
+{
+  std::vector<std::string> files;
+  for (const DicomHeader & header : m_Series.Headers)
+  {
+    files.push_back(header.FileName.string());
+  }
+  return files;
+}
+
 bool
 DicomReader::ReadsParts() const
 {

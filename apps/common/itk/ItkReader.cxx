@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "itk/ItkReader.h"
+#include "headers/DataOwners.h"
 #include "itk/Bitmap.h"
 #include "itk/FileIntegrity.h"
 #include "itk/JpegIntegrity.h"
@@ -236,6 +237,23 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   m_Description = Describe(path, *m_ImageIO);
   m_ReadsParts = ReadsRegions(*m_ImageIO);
   CheckFileIsWhole(path, *m_ImageIO);
+}
+
+std::vector<std::string>
+ItkReader::GetFiles() const
+{
+  if (IsNiftiPair(m_Path))
+  {
+    const NiftiPair files = FindNiftiPair(m_Path);
+    return { files.Header, files.Voxels };
+  }
+  std::vector<std::string> files = { m_Path };
+  if (m_Description.Format == "NRRD" || m_Description.Format == "MetaImage")
+  {
+    const auto data = ListDataFiles(m_Path);
+    files.insert(files.end(), data.begin(), data.end());
+  }
+  return files;
 }
 
 bool

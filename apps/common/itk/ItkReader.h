@@ -18,6 +18,9 @@ public:
    * \throw std::runtime_error that says why the file cannot be read, or is not whole */
   explicit ItkReader(const std::string & path, const std::string & meantFormat = {});
 
+  std::vector<std::string>
+  GetFiles() const override;
+
   bool
   ReadsParts() const override;
 

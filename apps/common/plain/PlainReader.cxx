@@ -49,8 +49,9 @@ IsBigEndianMachine()
 }
 } // namespace
 
-PlainReader::PlainReader(const PlainLayout & layout)
-  : m_Layout(layout)
+PlainReader::PlainReader(const std::string & path, const PlainLayout & layout)
+  : m_Path(path)
+  , m_Layout(layout)
 {
   m_Description = layout.Description;
   if (layout.IsCompressed)
@@ -64,6 +65,17 @@ PlainReader::PlainReader(const PlainLayout & layout)
       m_Files.emplace_back(section.Path);
     }
   }
+}
+
+std::vector<std::string>
+PlainReader::GetFiles() const
+{
+  std::vector<std::string> files = { m_Path };
+  for (const FileSection & section : m_Layout.Sections)
+  {
+    files.push_back(section.Path);
+  }
+  return files;
 }
 
 bool
@@ -162,11 +174,11 @@ PlainReader::ReadCompressed(std::uint64_t offset, char * bytes, std::uint64_t co
 std::unique_ptr<VolumeReader>
 OpenMetaImage(const std::string & path)
 {
-  return std::make_unique<PlainReader>(ReadMetaHeader(path));
+  return std::make_unique<PlainReader>(path, ReadMetaHeader(path));
 }
 
 std::unique_ptr<VolumeReader>
 OpenNrrd(const std::string & path)
 {
-  return std::make_unique<PlainReader>(ReadNrrdHeader(path));
+  return std::make_unique<PlainReader>(path, ReadNrrdHeader(path));
 }

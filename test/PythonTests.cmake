@@ -63,6 +63,7 @@ add_python_test(programs/subdivide_volume_piece_faults_test.py PROGRAMS Subdivid
 add_python_test(programs/subdivide_volume_pieces_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_processes_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_reports_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_streams_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_truncated_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/compare_volumes_test.py PROGRAMS CompareVolumes)
 foreach(script experiments_test.py experiments_surfaces_test.py)

@@ -198,8 +198,8 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   }
   const std::string known = GetKnownEnding(path);
   m_Links = known.empty() ? nullptr : LinkFolder::Get();
-  const std::string name = m_Links == nullptr ? path : m_Links->Link(path, known);
-  m_ImageIO = FindByContent(name);
+  m_Name = m_Links == nullptr ? path : m_Links->Link(path, known);
+  m_ImageIO = FindByContent(m_Name);
   const std::string ending = std::filesystem::path(path).extension().string();
   if (m_ImageIO.IsNull() && ending != ToLower(ending))
   {
@@ -218,22 +218,7 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
          : "it is no " + meantFormat + " file, or is damaged at its start, and is in none of the other known formats") +
         ", which SubdivideVolume --formats lists; --raw reads voxels without a header");
   }
-  try
-  {
-    if (std::string(m_ImageIO->GetNameOfClass()) == "BMPImageIO")
-    {
-      m_ImageIO = OpenBitmap(name);
-    }
-    else
-    {
-      m_ImageIO->SetFileName(name);
-      m_ImageIO->ReadImageInformation();
-    }
-  }
-  catch (const itk::ExceptionObject & error)
-  {
-    FailToRead(path, GetReason(error));
-  }
+  this->ReadHeader();
   m_Description = Describe(path, *m_ImageIO);
   m_ReadsParts = ReadsRegions(*m_ImageIO);
   CheckFileIsWhole(path, *m_ImageIO);
@@ -256,6 +241,27 @@ ItkReader::GetFiles() const
   return files;
 }
 
+void
+ItkReader::ReadHeader()
+{
+  try
+  {
+    if (std::string(m_ImageIO->GetNameOfClass()) == "BMPImageIO")
+    {
+      m_ImageIO = OpenBitmap(m_Name);
+    }
+    else
+    {
+      m_ImageIO->SetFileName(m_Name);
+      m_ImageIO->ReadImageInformation();
+    }
+  }
+  catch (const itk::ExceptionObject & error)
+  {
+    FailToRead(m_Path, GetReason(error));
+  }
+}
+
 bool
 ItkReader::ReadsParts() const
 {
@@ -271,7 +277,12 @@ ItkReader::GetScratchBytes(std::uint64_t partBytes) const
 void
 ItkReader::ReadRegion(const Box & box, void * voxels)
 {
-  const WatchedTask  task("cannot read " + m_Path);
+  const WatchedTask task("cannot read " + m_Path);
+  if (m_HasReadWhole && !m_ReadsParts)
+  {
+    this->ReadHeader(); // GIPL's reader goes on where it stands, which is the end of the file
+  }
+  m_HasReadWhole = true;
   itk::ImageIORegion region(static_cast<unsigned int>(box.size()));
   for (unsigned int axis = 0; axis < box.size(); ++axis)
   {

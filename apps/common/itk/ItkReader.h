@@ -32,12 +32,16 @@ public:
 
 private:
   void
+  ReadHeader();
+  void
   ReadRegion(const itk::Subdivision::Box & box, void * voxels);
 
   std::string                 m_Path;
+  std::string                 m_Name;    // that the format's reader knows the file by
   std::shared_ptr<LinkFolder> m_Links;   // where the file is opened by a link
   itk::ImageIOBase::Pointer   m_ImageIO; // has read the header
   bool                        m_ReadsParts;
+  bool                        m_HasReadWhole = false;
   std::vector<char>           m_Whole;
 };
 

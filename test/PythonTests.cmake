@@ -58,6 +58,7 @@ add_python_test(programs/subdivide_volume_input_files_test.py PROGRAMS Subdivide
 add_python_test(programs/subdivide_volume_kills_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_labels_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_levels_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_longer_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_neighbours_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_piece_faults_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_pieces_test.py PROGRAMS SubdivideVolume)

@@ -5,6 +5,7 @@
 #include "itk/FileIntegrity.h"
 #include "itk/JpegIntegrity.h"
 #include "itk/PixelComponent.h"
+#include "itk/VtkFile.h"
 #include "nifti/NiftiFiles.h"
 #include "nifti/NiftiHeader.h"
 #include "system/files/InputFile.h"
@@ -34,7 +35,7 @@ GetFormatName(const itk::ImageIOBase & imageIO)
   const std::string suffix = "ImageIO";
   const auto        end = name.rfind(suffix);
   const std::string format = end == std::string::npos ? name : name.substr(0, end);
-  return format == "Nifti" ? "NIfTI" : format == "Nrrd" ? "NRRD" : format == "Meta" ? "MetaImage" : format;
+  return format == "Nifti" ? "NIfTI" : format == "Nrrd" ? "NRRD" : format;
 }
 
 VoxelKind
@@ -218,10 +219,18 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
          : "it is no " + meantFormat + " file, or is damaged at its start, and is in none of the other known formats") +
         ", which SubdivideVolume --formats lists; --raw reads voxels without a header");
   }
+  if (std::string(m_ImageIO->GetNameOfClass()) == "MRCImageIO")
+  {
+    CheckMrcByteOrder(path);
+  }
   this->ReadHeader();
   m_Description = Describe(path, *m_ImageIO);
   m_ReadsParts = ReadsRegions(*m_ImageIO);
   CheckFileIsWhole(path, *m_ImageIO);
+  if (IsVtkText(*m_ImageIO))
+  {
+    m_Whole = ReadVtkText(path, m_Description);
+  }
 }
 
 std::vector<std::string>
@@ -233,7 +242,7 @@ ItkReader::GetFiles() const
     return { files.Header, files.Voxels };
   }
   std::vector<std::string> files = { m_Path };
-  if (m_Description.Format == "NRRD" || m_Description.Format == "MetaImage")
+  if (m_Description.Format == "NRRD")
   {
     const auto data = ListDataFiles(m_Path);
     files.insert(files.end(), data.begin(), data.end());

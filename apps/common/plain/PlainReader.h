@@ -52,4 +52,10 @@ OpenMetaImage(const std::string & path);
 std::unique_ptr<VolumeReader>
 OpenNrrd(const std::string & path);
 
+/** Checks that the files of an NRRD whose header is not understood hold exactly the numbers that it says.
+ * \return how many bytes they take
+ * \throw std::runtime_error */
+std::uint64_t
+CheckNrrdNumbers(const std::string & path);
+
 #endif

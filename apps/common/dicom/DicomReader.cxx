@@ -28,6 +28,14 @@ CheckPixmap(const DicomHeader & header, const gdcm::Pixmap & pixmap, std::size_t
   {
     Fail(header, "the DICOM file is truncated");
   }
+  // Writers pad to an even number of bytes, and some a little further.
+  const std::size_t rowBytes = header.GetFrameBytes() / header.Rows;
+  if (plain != nullptr && plain->GetLength() >= bytes + rowBytes)
+  {
+    Fail(header,
+         "its pixels take " + std::to_string(plain->GetLength()) + " bytes, but its header tells of " +
+           std::to_string(bytes) + "; the size or the number of frames in the header is wrong");
+  }
   if (pixmap.GetBufferLength() != bytes || pixmap.GetPixelFormat().GetBitsAllocated() != header.BitsAllocated)
   {
     Fail(header, "its pixels are not of the type or number that its header tells");

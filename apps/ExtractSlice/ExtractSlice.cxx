@@ -3,6 +3,7 @@
 // INPUT is an image file, or a folder with a DICOM series or with slices.
 
 #include "formats/CreateVolume.h"
+#include "formats/InputSafety.h"
 #include "formats/OpenVolume.h"
 #include "system/process/WatchedRun.h"
 #include "text/OneLineMessage.h"
@@ -50,6 +51,7 @@ ExtractSlice(const std::string & inputPath, const std::string & outputPath)
     grid.Directions[axis].resize(axes);
   }
   const auto writer = CreateVolume(outputPath, {}, warn);
+  CheckInputStays(inputPath, *reader, outputPath, *writer, InPlace::Allowed);
   writer->Begin(slice);
   writer->Write(box, values.data());
   writer->Commit();

@@ -51,12 +51,16 @@ TEST_P(ItkFormats, PartsAreThoseOfTheWhole)
   const auto        description = MakeUpright({ 9, 7, 5 }, ElementType::Int16);
   const auto        voxels = MakeVoxels(description);
   WriteVolume(path, description, voxels);
-  const auto reader = Open(path);
+  const auto                  reader = Open(path);
+  const itk::Subdivision::Box whole = { { 0, 9 }, { 0, 7 }, { 0, 5 } };
+  EXPECT_EQ(ReadVoxels(*reader, whole), voxels);
+  EXPECT_EQ(ReadVoxels(*reader, whole), voxels);
   const auto plane = static_cast<std::ptrdiff_t>(9 * 7 * 2);
   EXPECT_EQ(ReadVoxels(*reader, { { 0, 9 }, { 0, 7 }, { 1, 2 } }),
             std::vector<char>(voxels.begin() + plane, voxels.begin() + 3 * plane));
   EXPECT_EQ(ReadVoxels(*reader, { { 2, 3 }, { 4, 1 }, { 3, 1 } }),
             std::vector<char>(voxels.begin() + 3 * plane + 4 * 18 + 4, voxels.begin() + 3 * plane + 4 * 18 + 10));
+  EXPECT_EQ(ReadVoxels(*reader, whole), voxels);
 }
 
 INSTANTIATE_TEST_SUITE_P(Endings,
@@ -74,7 +78,11 @@ INSTANTIATE_TEST_SUITE_P(Endings,
                                          ".H5",
                                          ".mrc",
                                          ".MRC",
-                                         ".hdr"));
+                                         ".hdr",
+                                         ".img",
+                                         ".img.gz",
+                                         ".hdf5",
+                                         ".rec"));
 
 TEST(ItkFormatsLimits, WhatIsLostIsSaid)
 {

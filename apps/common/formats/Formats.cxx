@@ -14,18 +14,30 @@
 
 namespace
 {
-/** Opens a file by its own reader where that understands all of it, else by ITK's. */
-template <std::unique_ptr<VolumeReader> (*VOpen)(const std::string &)>
 std::unique_ptr<VolumeReader>
-OpenPlain(const std::string & path, const InputOptions & options, const WarningSink & warn)
+OpenMeta(const std::string & path, const InputOptions &, const WarningSink &)
+{
+  return OpenMetaImage(path);
+}
+
+/** By the own reader where that understands all of the header, else by ITK's. */
+std::unique_ptr<VolumeReader>
+OpenAnyNrrd(const std::string & path, const InputOptions & options, const WarningSink & warn)
 {
   try
   {
-    return VOpen(path);
+    return OpenNrrd(path);
   }
   catch (const HeaderNotUnderstood &)
   {
-    return OpenByItk(path, options, warn);
+    const std::uint64_t      bytes = CheckNrrdNumbers(path);
+    auto                     reader = OpenByItk(path, options, warn);
+    const ImageDescription & description = reader->GetDescription();
+    if (description.GetNumberOfVoxels() * description.GetVoxelBytes() != bytes)
+    {
+      FailToRead(path, "a part of its voxels' components would be left out; save them as a vector");
+    }
+    return reader;
   }
 }
 
@@ -54,8 +66,8 @@ const std::vector<VolumeFormat> &
 GetVolumeFormats()
 {
   static const std::vector<VolumeFormat> formats = {
-    { "MetaImage", { ".mha", ".mhd" }, OpenPlain<OpenMetaImage>, Create<PlainWriter>, true, true, true },
-    { "NRRD", { ".nrrd", ".nhdr" }, OpenPlain<OpenNrrd>, Create<PlainWriter>, true, true, true },
+    { "MetaImage", { ".mha", ".mhd" }, OpenMeta, Create<PlainWriter>, true, true, true },
+    { "NRRD", { ".nrrd", ".nhdr" }, OpenAnyNrrd, Create<PlainWriter>, true, true, true },
     { "NIfTI", { ".nii", ".nii.gz", ".hdr", ".img", ".img.gz" }, OpenNifti, Create<ItkWriter>, true, false, true },
     { "VTK", { ".vtk" }, OpenByItk, Create<ItkWriter>, true, false, false },
     { "HDF5", { ".h5", ".hdf5", ".hdf", ".he5" }, OpenByItk, Create<ItkWriter>, true, false, true },

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "itk/ItkReader.h"
+#include "headers/DataOwners.h"
 #include "itk/Bitmap.h"
 #include "itk/FileIntegrity.h"
 #include "itk/JpegIntegrity.h"
 #include "itk/PixelComponent.h"
+#include "itk/VtkFile.h"
 #include "nifti/NiftiFiles.h"
 #include "nifti/NiftiHeader.h"
 #include "system/files/InputFile.h"
@@ -33,7 +35,7 @@ GetFormatName(const itk::ImageIOBase & imageIO)
   const std::string suffix = "ImageIO";
   const auto        end = name.rfind(suffix);
   const std::string format = end == std::string::npos ? name : name.substr(0, end);
-  return format == "Nifti" ? "NIfTI" : format == "Nrrd" ? "NRRD" : format == "Meta" ? "MetaImage" : format;
+  return format == "Nifti" ? "NIfTI" : format == "Nrrd" ? "NRRD" : format;
 }
 
 VoxelKind
@@ -197,8 +199,8 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   }
   const std::string known = GetKnownEnding(path);
   m_Links = known.empty() ? nullptr : LinkFolder::Get();
-  const std::string name = m_Links == nullptr ? path : m_Links->Link(path, known);
-  m_ImageIO = FindByContent(name);
+  m_Name = m_Links == nullptr ? path : m_Links->Link(path, known);
+  m_ImageIO = FindByContent(m_Name);
   const std::string ending = std::filesystem::path(path).extension().string();
   if (m_ImageIO.IsNull() && ending != ToLower(ending))
   {
@@ -217,25 +219,56 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
          : "it is no " + meantFormat + " file, or is damaged at its start, and is in none of the other known formats") +
         ", which SubdivideVolume --formats lists; --raw reads voxels without a header");
   }
+  if (std::string(m_ImageIO->GetNameOfClass()) == "MRCImageIO")
+  {
+    CheckMrcByteOrder(path);
+  }
+  this->ReadHeader();
+  m_Description = Describe(path, *m_ImageIO);
+  m_ReadsParts = ReadsRegions(*m_ImageIO);
+  CheckFileIsWhole(path, *m_ImageIO);
+  if (IsVtkText(*m_ImageIO))
+  {
+    m_Whole = ReadVtkText(path, m_Description);
+  }
+}
+
+std::vector<std::string>
+ItkReader::GetFiles() const
+{
+  if (IsNiftiPair(m_Path))
+  {
+    const NiftiPair files = FindNiftiPair(m_Path);
+    return { files.Header, files.Voxels };
+  }
+  std::vector<std::string> files = { m_Path };
+  if (m_Description.Format == "NRRD")
+  {
+    const auto data = ListDataFiles(m_Path);
+    files.insert(files.end(), data.begin(), data.end());
+  }
+  return files;
+}
+
+void
+ItkReader::ReadHeader()
+{
   try
   {
     if (std::string(m_ImageIO->GetNameOfClass()) == "BMPImageIO")
     {
-      m_ImageIO = OpenBitmap(name);
+      m_ImageIO = OpenBitmap(m_Name);
     }
     else
     {
-      m_ImageIO->SetFileName(name);
+      m_ImageIO->SetFileName(m_Name);
       m_ImageIO->ReadImageInformation();
     }
   }
   catch (const itk::ExceptionObject & error)
   {
-    FailToRead(path, GetReason(error));
+    FailToRead(m_Path, GetReason(error));
   }
-  m_Description = Describe(path, *m_ImageIO);
-  m_ReadsParts = ReadsRegions(*m_ImageIO);
-  CheckFileIsWhole(path, *m_ImageIO);
 }
 
 bool
@@ -253,7 +286,12 @@ ItkReader::GetScratchBytes(std::uint64_t partBytes) const
 void
 ItkReader::ReadRegion(const Box & box, void * voxels)
 {
-  const WatchedTask  task("cannot read " + m_Path);
+  const WatchedTask task("cannot read " + m_Path);
+  if (m_HasReadWhole && !m_ReadsParts)
+  {
+    this->ReadHeader(); // GIPL's reader goes on where it stands, which is the end of the file
+  }
+  m_HasReadWhole = true;
   itk::ImageIORegion region(static_cast<unsigned int>(box.size()));
   for (unsigned int axis = 0; axis < box.size(); ++axis)
   {

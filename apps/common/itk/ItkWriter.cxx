@@ -141,6 +141,13 @@ ItkWriter::ItkWriter(const std::string & path, const OutputOptions & options, co
   m_IsGzipped = name.size() > ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
 }
 
+std::vector<fs::path>
+ItkWriter::GetReplacedFiles() const
+{
+  const std::string output = ResolveOutput(m_Path).string();
+  return IsNiftiPair(output) ? ListWrittenPair(output) : std::vector<fs::path>{ output };
+}
+
 bool
 ItkWriter::WritesParts() const
 {

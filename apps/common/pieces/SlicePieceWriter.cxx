@@ -22,6 +22,12 @@ public:
     , m_Warn(std::move(warn))
   {}
 
+  std::vector<fs::path>
+  GetReplacedFiles() const override
+  {
+    return { m_Output };
+  }
+
   bool
   WritesParts() const override
   {

@@ -31,6 +31,12 @@ public:
     this->Describe(stack, options, warn);
   }
 
+  std::vector<std::string>
+  GetFiles() const override
+  {
+    return { m_Slices.Files.begin(), m_Slices.Files.end() };
+  }
+
   bool
   ReadsParts() const override
   {

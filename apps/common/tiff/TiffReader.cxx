@@ -48,6 +48,12 @@ public:
     this->Warn(stack, warn);
   }
 
+  std::vector<std::string>
+  GetFiles() const override
+  {
+    return { m_File.GetPath() };
+  }
+
   bool
   ReadsParts() const override
   {

@@ -96,7 +96,7 @@ PieceFolder::FindNumberOfPieces(const fs::path & output)
 {
   const fs::path  agreement = GetFolder(output) / AgreementName;
   std::error_code error;
-  fs::status(agreement, error);
+  static_cast<void>(fs::status(agreement, error));
   if (error && !IsMissing(error))
   {
     throw std::runtime_error("cannot read " + agreement.string() + ": " + error.message());

@@ -91,6 +91,17 @@ Describe(const std::string & path, const itk::ImageIOBase & imageIO)
   return description;
 }
 
+/** Before version 5.4, ITK's reader of NIfTI puts the spacing in space alone into millimetres. */
+void
+CompleteUnits(const std::string & path, const itk::ImageIOBase & imageIO, ImageGrid & grid)
+{
+  constexpr bool isRestLeft = ITK_VERSION_MAJOR < 5 || (ITK_VERSION_MAJOR == 5 && ITK_VERSION_MINOR < 4);
+  if (isRestLeft && std::string(imageIO.GetNameOfClass()) == "NiftiImageIO")
+  {
+    NiftiHeader(IsNiftiPair(path) ? FindNiftiPair(path).Header : path).CompleteUnits(grid);
+  }
+}
+
 /** Whether ITK's reader of the format reads a region right, without the rest. */
 bool
 ReadsRegions(const itk::ImageIOBase & imageIO)
@@ -234,6 +245,7 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
     FailToRead(path, GetReason(error));
   }
   m_Description = Describe(path, *m_ImageIO);
+  CompleteUnits(path, *m_ImageIO, m_Description.Grid);
   m_ReadsParts = ReadsRegions(*m_ImageIO);
   CheckFileIsWhole(path, *m_ImageIO);
 }

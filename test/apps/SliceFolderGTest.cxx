@@ -77,6 +77,29 @@ TEST_F(SliceFolderTest, TakesNumbersAnywhereAndOfAnySize)
   EXPECT_EQ(this->GetOrder(), (std::vector<std::uint16_t>{ 0, 1, 2 }));
 }
 
+TEST_F(SliceFolderTest, RefusesSlicesThatAreTurnedInDifferentWays)
+{
+  const auto write = [&](const std::string & name, std::uint16_t orientation) {
+    TiffTestFile file;
+    TiffTestPage page;
+    page.Width = 4;
+    page.Height = 2;
+    page.Orientation = orientation;
+    file.AddPage(page, std::vector<std::uint16_t>(8, 1));
+    m_Folder.WriteFile(name, file.GetBytes());
+  };
+  write("a1.tif", 1);
+  write("a2.tif", 0);
+  EXPECT_EQ(this->GetOpeningError(), "");
+  EXPECT_EQ(m_Warnings.GetNumber(), 0u);
+  write("a3.tif", 6);
+  EXPECT_TRUE(Contains(this->GetOpeningError(), "a3.tif asks to be shown in another way (orientation 6)"));
+  write("a1.tif", 6);
+  write("a2.tif", 6);
+  EXPECT_EQ(this->GetOpeningError(), "");
+  EXPECT_TRUE(m_Warnings.Mention("orientation 6"));
+}
+
 TEST_F(SliceFolderTest, TellsOfGaps)
 {
   for (const std::uint16_t number : { 1, 2, 5, 6, 20 })

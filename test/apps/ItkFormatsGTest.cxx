@@ -108,6 +108,18 @@ TEST(ItkFormatsLimits, WhatCannotBeHeldIsRefusedBeforeAnythingIsComputed)
   EXPECT_NE(getError("a.png", MakeUpright({ 9, 7, 5 }, ElementType::UInt8)), "");
   EXPECT_NE(getError("a.png", MakeUpright({ 9, 7 }, ElementType::Float)), "");
   EXPECT_NE(getError("a.vtk", MakeUpright({ 9, 7, 5, 3 }, ElementType::UInt8)), "");
+  for (const unsigned int components : { 2u, 4u, 5u })
+  {
+    auto description = MakeUpright({ 9, 7 }, ElementType::UInt8);
+    description.NumberOfComponents = components;
+    description.Kind = components == 4 ? VoxelKind::Rgba : VoxelKind::Vector;
+    for (const std::string name : { "a.bmp", "a.jpg", "a.JPEG" })
+    {
+      EXPECT_NE(getError(name, description).find("3 components, not " + std::to_string(components)), std::string::npos);
+    }
+    EXPECT_EQ(getError("a.png", description) == "", components < 5);
+    EXPECT_EQ(getError("a.tif", description), "");
+  }
   EXPECT_TRUE(folder.GetFiles().empty());
 }
 

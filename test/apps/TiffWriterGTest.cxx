@@ -225,3 +225,35 @@ TEST_F(TiffWriterTest, KeepsColours)
     EXPECT_EQ(ReadAll<std::uint8_t>(*reader), voxels);
   }
 }
+
+// A MetaImage does not say what its components are: programs take three or four for colours, and so does TIFF.
+TEST_F(TiffWriterTest, ThreeOrFourComponentsThatCanBeColoursAre)
+{
+  const auto getKind = [&](ElementType type, unsigned int components) {
+    auto description = MakeDescription(type);
+    description.NumberOfComponents = components;
+    description.Kind = VoxelKind::Vector;
+    const std::vector<std::uint8_t> voxels =
+      MakeVoxels<std::uint8_t>(description.GetNumberOfVoxels() * description.GetVoxelBytes());
+    const auto writer = this->Begin("out.tif", description);
+    writer->Write(Box{ { 0, Width }, { 0, Height }, { 0, Slices } }, voxels.data());
+    writer->Commit();
+    const auto                reader = this->Open("out.tif");
+    std::vector<std::uint8_t> read(voxels.size());
+    reader->Read(GetWholeBox(*reader), read.data());
+    EXPECT_EQ(read, voxels);
+    EXPECT_EQ(reader->GetDescription().Grid.Size, description.Grid.Size);
+    return reader->GetDescription().Kind;
+  };
+  for (const auto type : { ElementType::UInt8, ElementType::UInt16 })
+  {
+    EXPECT_EQ(getKind(type, 2), VoxelKind::Vector);
+    EXPECT_EQ(getKind(type, 3), VoxelKind::Rgb);
+    EXPECT_EQ(getKind(type, 4), VoxelKind::Rgba);
+    EXPECT_EQ(getKind(type, 5), VoxelKind::Vector);
+  }
+  for (const auto type : { ElementType::Int8, ElementType::Int16, ElementType::Float })
+  {
+    EXPECT_EQ(getKind(type, 3), VoxelKind::Vector);
+  }
+}

@@ -74,6 +74,20 @@ CheckSize(const std::string & path, const ImageDescription & description, const 
   }
 }
 
+/** ITK writes other components than those into BMP and JPEG files, too, which programs take for other colours. */
+void
+CheckComponents(const std::string & path, const ImageDescription & description, const itk::ImageIOBase & imageIO)
+{
+  const std::string  format = imageIO.GetNameOfClass();
+  const unsigned int components = description.NumberOfComponents;
+  if ((format == "BMPImageIO" || format == "JPEGImageIO") && components != 1 && components != 3)
+  {
+    Fail(path,
+         "its format holds grey values or colours of 3 components, not " + std::to_string(components) +
+           " components; use .tif, .mha or .nrrd" + (components < 5 ? ", or .png in 2D" : ""));
+  }
+}
+
 /** Small whole numbers in a row, in the type of the voxels. */
 std::vector<char>
 MakeTestVoxels(const ImageDescription & description)
@@ -255,7 +269,9 @@ ItkWriter::Begin(const ImageDescription & description)
   m_Folder = std::make_unique<TemporaryFolder>(m_Path, m_Warn);
   const fs::path output = m_Folder->GetFileName();
   m_File = output.parent_path() / (m_IsGzipped ? "image.nii" : WithEndingInSmallLetters(output.filename()));
-  CheckSize(m_Path, description, *this->MakeImageIO(description));
+  const ImageIOPointer imageIO = this->MakeImageIO(description);
+  CheckSize(m_Path, description, *imageIO);
+  CheckComponents(m_Path, description, *imageIO);
   this->Try();
 }
 

@@ -3,6 +3,7 @@
 #include "itk/Bitmap.h"
 #include "itk/FileIntegrity.h"
 #include "itk/JpegIntegrity.h"
+#include "itk/PictureColours.h"
 #include "itk/PixelComponent.h"
 #include "nifti/NiftiFiles.h"
 #include "nifti/NiftiHeader.h"
@@ -243,6 +244,11 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   catch (const itk::ExceptionObject & error)
   {
     FailToRead(path, GetReason(error));
+  }
+  const std::string colourFault = FindColourFault(*m_ImageIO);
+  if (!colourFault.empty())
+  {
+    FailToRead(path, colourFault);
   }
   m_Description = Describe(path, *m_ImageIO);
   CompleteUnits(path, *m_ImageIO, m_Description.Grid);

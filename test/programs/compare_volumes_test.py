@@ -83,6 +83,13 @@ class CompareVolumes(unittest.TestCase):
 
 
 class Figures(CompareVolumes):
+    def test_names_behind_two_dashes_are_no_options(self):
+        self.write_mha("-a.mha", [2, 2], "h", [1, 2, 3, 4])
+        for arguments in (["--json", "--quantile", "0.9", "--", "-a.mha", "-a.mha"], ["--json", "--", "-a.mha", "-a.mha"]):
+            result = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False, cwd=self.folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(json.loads(result.stdout)["relative_l2_error"], 0)
+
     def test_2d_hand_computed(self):
         reference = self.write_mha("r.mha", [2, 2], "f", [0, 3, 4, 0])
         test = self.write_mha("t.mha", [2, 2], "f", [1, 3, 2, -0.5])

@@ -44,6 +44,33 @@ class Errors(ProgramTest):
         for value in ("nan", "inf", "-inf"):
             self.assert_fails(self.run_program(*files, f"--boundary={value}"), 1, value)
 
+    def test_an_empty_tension_is_not_0(self):
+        write_meta(self.path("in.mha"), [6, 5, 4], "f", noise(120))
+        self.assert_fails(self.run_program("--scheme", "restored", "--tension", "", self.path("in.mha"),
+                                           self.path("out.mha")), 2, "--tension: a number is missing")
+
+    def test_an_unknown_option_alone_is_named(self):
+        files = [self.path("in.mha"), self.path("out.mha")]
+        for arguments, message in ((["--shceme", "linear"], "unknown argument: --shceme; is --scheme meant?"),
+                                   (["--Tension=3"], "unknown argument: --Tension=3; is --tension meant?"),
+                                   (["--frobnicate"], "unknown argument: --frobnicate (see --help)"),
+                                   (["-q"], "unknown argument: -q (see --help)")):
+            result = self.run_program(*arguments, *files)
+            self.assert_fails(result, 2, message)
+            self.assertNotIn("out.mha", result.stderr)
+        self.assert_fails(self.run_program(*files, "--", "--quiet"), 2, "unknown argument: ./--quiet")
+
+    def test_names_behind_two_dashes_are_no_options(self):
+        write_meta(self.path("-in.mha"), [6, 5, 4], "h", noise(120))
+        write_meta(self.path("in.mha"), [6, 5, 4], "h", noise(120))
+        self.subdivide("in.mha", "truth.mha")
+        for arguments in (["--", "-in.mha"], ["in.mha", "--"], ["--axes", "xyz", "--", "-in.mha"], ["--quiet", "--", "in.mha"]):
+            result = self.run_program(*arguments, "--quiet.mha", cwd=self.folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(self.path("--quiet.mha"), "rb") as output, open(self.path("truth.mha"), "rb") as truth:
+                self.assertEqual(output.read(), truth.read(), arguments)
+            os.remove(self.path("--quiet.mha"))
+
     def test_options_that_do_not_fit_the_image(self):
         write_meta(self.path("in.mha"), [6, 5], "B", noise(30, 0, 256))
         files = [self.path("in.mha"), self.path("out.mha")]

@@ -170,6 +170,24 @@ TEST_F(TiffWriterTest, ReplacesEarlierOutputAlone)
   writer->Commit();
   EXPECT_EQ(this->Open("out/")->GetDescription().Grid.Size[2], 2u);
 
+  // What systems leave in folders goes on to the next one.
+  for (const std::string name : { ".DS_Store", "Thumbs.db", "desktop.ini", "._out_0000.tif" })
+  {
+    m_Folder.WriteFile("out/" + name, "of " + name);
+  }
+  writer = this->Begin("out/", fewer);
+  writer->Write(Box{ { 0, Width }, { 0, Height }, { 0, 2 } }, voxels.data());
+  m_Folder.WriteFile("out/.DS_Store", "another");
+  writer->Commit();
+  EXPECT_EQ(m_Folder.ReadFile("out/.DS_Store"), "another");
+  EXPECT_EQ(m_Folder.ReadFile("out/Thumbs.db"), "of Thumbs.db");
+  EXPECT_EQ(m_Folder.ReadFile("out/desktop.ini"), "of desktop.ini");
+  EXPECT_EQ(m_Folder.ReadFile("out/._out_0000.tif"), "of ._out_0000.tif");
+  EXPECT_EQ(this->Open("out/")->GetDescription().Grid.Size[2], 2u);
+  std::filesystem::create_directory(m_Folder / "out/._folder");
+  EXPECT_TRUE(Contains(GetError([&] { this->Begin("out/", fewer); }), "._folder"));
+  std::filesystem::remove(m_Folder / "out/._folder");
+
   // A file of other origin stays, whatever its name.
   for (const std::string name : { "notes.txt", "out_0007.tif" })
   {

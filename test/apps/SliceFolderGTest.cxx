@@ -118,6 +118,34 @@ TEST_F(SliceFolderTest, RefusesSeveralSeries)
   EXPECT_TRUE(Contains(this->GetOpeningError(), "a_1.tif and b_2.tif"));
 }
 
+TEST_F(SliceFolderTest, LeavesAPreviewWithoutANumberAside)
+{
+  for (const std::uint16_t number : { 0, 1, 2 })
+  {
+    this->WriteSlice("mouse 12_rec000" + std::to_string(number) + ".tif", number);
+  }
+  m_Folder.WriteFile("mouse 12_rec.log", "x");
+  for (const std::string preview : { "mouse 12_rec_spr.tif", "mouse 12_rec_spr.bmp", "a.png", "z.tif" })
+  {
+    m_Folder.WriteFile(preview, "not even a picture");
+    const auto before = m_Warnings.GetNumber();
+    EXPECT_EQ(this->GetOrder(), (std::vector<std::uint16_t>{ 0, 1, 2 })) << preview;
+    EXPECT_EQ(m_Warnings.GetNumber(), before + 1);
+    EXPECT_TRUE(m_Warnings.Mention("the picture " + preview));
+    std::filesystem::remove(m_Folder / preview);
+  }
+  // It may be the first slice, or of another series, or there are several.
+  for (const std::string name : { "mouse 12_rec.tif", "mouse 12_rec.bmp", "rat 7_rec0003.tif" })
+  {
+    m_Folder.WriteFile(name, "x");
+    EXPECT_NE(this->GetOpeningError(), "") << name;
+    std::filesystem::remove(m_Folder / name);
+  }
+  m_Folder.WriteFile("mouse 12_rec_spr.bmp", "x");
+  m_Folder.WriteFile("mouse 12_rec_sag.bmp", "x");
+  EXPECT_TRUE(Contains(this->GetOpeningError(), "several formats"));
+}
+
 TEST_F(SliceFolderTest, RefusesNamesWithTwoNumbers)
 {
   this->WriteSlice("z1_c0.tif", 1);

@@ -87,6 +87,29 @@ class Errors(ProgramTest):
                 file.write(content)
             self.assert_fails(self.run_program(self.path(name), out), 1, name)
 
+    def test_damaged_hdf5_is_the_input(self):
+        write_meta(self.path("in.mha"), [6, 5, 4], "h", noise(120))
+        self.subdivide("in.mha", "in.h5", "--axes", "x")
+        with open(self.path("in.h5"), "rb") as file:
+            whole = file.read()
+        source = random.Random(7)
+        refused = 0
+        for _ in range(40):
+            place = source.randrange(len(whole) - 40)
+            with open(self.path("in.h5"), "wb") as file:
+                file.write(whole[:place] + source.randbytes(40) + whole[place + 40:])
+            result = self.run_program(self.path("in.h5"), self.path("out.mha"), "--quiet")
+            if result.returncode != 0:
+                self.assert_fails(result, 1, "cannot read " + self.path("in.h5"))
+                refused += 1
+            elif os.path.exists(self.path("out.mha")):
+                os.remove(self.path("out.mha"))
+        self.assertGreater(refused, 10)
+        with open(self.path("in.h5"), "wb") as file:
+            file.write(whole[:8] + bytes(1000))
+        self.assert_fails(self.run_program(self.path("in.h5"), self.path("out.mha")), 1,
+                          "it is an HDF5 file that holds no image as ITK writes it")
+
     def test_images_that_cannot_be(self):
         out = self.path("out.mha")
         for size in ([0, 5], [2000000000, 2000000000, 2000000000], [2, 2, 2, 2, 2]):

@@ -166,6 +166,33 @@ GetKnownEnding(const std::string & path)
   return GetMistakenNiftiEnding(path);
 }
 
+/** Calls ITK, some of whose libraries throw what is no std::exception, as HDF5's does. */
+template <typename TFunction>
+void
+CallLibrary(const std::string & path, TFunction && function)
+{
+  try
+  {
+    function();
+  }
+  catch (const std::exception &)
+  {
+    throw;
+  }
+  catch (...)
+  {
+    FailToRead(path, "it is damaged: the library of its format cannot read it");
+  }
+}
+
+/** Whether a file is HDF5, whatever it holds. */
+bool
+IsHdf5(const std::string & path)
+{
+  const std::string sign = "\x89HDF\r\n\x1A\n";
+  return InputFile(path).ReadTextAt(0, sign.size()) == sign;
+}
+
 bool
 IsWhole(const std::vector<std::uint64_t> & size, const Box & box)
 {
@@ -220,6 +247,11 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   {
     FailToRead(path, "it is a NIfTI-2 file, of which only version 1 is supported; save it as NIfTI-1 or NRRD");
   }
+  if (m_ImageIO.IsNull() && IsHdf5(path))
+  {
+    FailToRead(
+      path, "it is an HDF5 file that holds no image as ITK writes it, or is damaged; save its array as .nrrd or .mha");
+  }
   if (m_ImageIO.IsNull())
   {
     FailToRead(
@@ -237,13 +269,15 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
     }
     else
     {
-      m_ImageIO->SetFileName(name);
-      m_ImageIO->ReadImageInformation();
+      CallLibrary(path, [&] {
+        m_ImageIO->SetFileName(name);
+        m_ImageIO->ReadImageInformation();
+      });
     }
   }
   catch (const itk::ExceptionObject & error)
   {
-    FailToRead(path, GetReason(error));
+    FailToRead(path, IsHdf5(path) ? "it is damaged (" + GetReason(error) + ')' : GetReason(error));
   }
   const std::string colourFault = FindColourFault(*m_ImageIO);
   if (!colourFault.empty())
@@ -253,7 +287,13 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   m_Description = Describe(path, *m_ImageIO);
   CompleteUnits(path, *m_ImageIO, m_Description.Grid);
   m_ReadsParts = ReadsRegions(*m_ImageIO);
-  CheckFileIsWhole(path, *m_ImageIO);
+  CallLibrary(path, [&] { CheckFileIsWhole(path, *m_ImageIO); });
+}
+
+ItkReader::~ItkReader()
+{
+  const WatchedTask task("cannot read " + m_Path);
+  m_ImageIO = nullptr;
 }
 
 bool
@@ -280,8 +320,10 @@ ItkReader::ReadRegion(const Box & box, void * voxels)
   }
   try
   {
-    m_ImageIO->SetIORegion(region);
-    m_ImageIO->Read(voxels);
+    CallLibrary(m_Path, [&] {
+      m_ImageIO->SetIORegion(region);
+      m_ImageIO->Read(voxels);
+    });
   }
   catch (const itk::ExceptionObject & error)
   {

@@ -9,6 +9,7 @@
 #include "system/files/CurrentFolder.h"
 #include "system/files/InputFile.h"
 #include "system/files/OutputFile.h"
+#include "system/process/WatchedTask.h"
 #include "text/HeaderText.h"
 
 #include "itkImageFileReader.h" // registers the formats
@@ -209,6 +210,7 @@ ItkWriter::MakeImageIO(const ImageDescription & description) const
 void
 ItkWriter::WriteFile(const ImageDescription & description, const void * voxels) const
 {
+  const WatchedTask   task("cannot write " + m_Path);
   const CurrentFolder folder(m_File.parent_path());
   // Some formats are written to the end only when their writer is gone.
   this->MakeImageIO(description)->Write(voxels);

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 
 namespace
 {
@@ -76,10 +77,11 @@ RunProgram(const char * inputPath, const char * outputPath)
 int
 main(int argc, char * argv[])
 {
-  if (argc != 3)
+  const int first = argc > 1 && std::strcmp(argv[1], "--") == 0 ? 2 : 1;
+  if (argc != first + 2)
   {
     std::fprintf(stderr, "Usage: ExtractSlice INPUT OUTPUT\n");
     return 2;
   }
-  return RunWatched([&] { return RunProgram(argv[1], argv[2]); });
+  return RunWatched([&] { return RunProgram(argv[first], argv[first + 1]); });
 }

@@ -4,6 +4,9 @@
 #include "VolumeTestImages.h"
 #include "formats/CreateVolume.h"
 
+#include "itkJPEGImageIO.h"
+
+#include <filesystem>
 #include <gtest/gtest.h>
 
 using namespace VolumeTest;
@@ -116,6 +119,18 @@ TEST(ItkFormatsLimits, WhatCannotBeHeldIsRefusedBeforeAnythingIsComputed)
   EXPECT_NE(getError("a.png", MakeUpright({ 9, 7, 5 }, ElementType::UInt8)), "");
   EXPECT_NE(getError("a.png", MakeUpright({ 9, 7 }, ElementType::Float)), "");
   EXPECT_NE(getError("a.vtk", MakeUpright({ 9, 7, 5, 3 }, ElementType::UInt8)), "");
+  for (const unsigned int components : { 2u, 4u, 5u })
+  {
+    auto description = MakeUpright({ 9, 7 }, ElementType::UInt8);
+    description.NumberOfComponents = components;
+    description.Kind = components == 4 ? VoxelKind::Rgba : VoxelKind::Vector;
+    for (const std::string name : { "a.bmp", "a.jpg", "a.JPEG" })
+    {
+      EXPECT_NE(getError(name, description).find("3 components, not " + std::to_string(components)), std::string::npos);
+    }
+    EXPECT_EQ(getError("a.png", description) == "", components < 5);
+    EXPECT_EQ(getError("a.tif", description), "");
+  }
   EXPECT_TRUE(folder.GetFiles().empty());
 }
 
@@ -139,6 +154,26 @@ TEST(ItkFormatsLimits, VectorsOfNiftiAreReadRight)
   const auto plane = static_cast<std::ptrdiff_t>(9 * 7 * 12);
   EXPECT_EQ(ReadVoxels(*reader, { { 0, 9 }, { 0, 7 }, { 2, 1 } }),
             std::vector<char>(voxels.begin() + 2 * plane, voxels.begin() + 3 * plane));
+}
+
+TEST(ItkFormatsLimits, CmykIsNotTakenForOtherColours)
+{
+  const TestFolder                folder;
+  const std::vector<std::uint8_t> pixels(4 * 16 * 16, 100);
+  std::filesystem::create_directory(folder / "slices");
+  for (const std::string name : { "a.jpg", "slices/a1.jpg", "slices/a2.jpg" })
+  {
+    const auto jpeg = itk::JPEGImageIO::New();
+    jpeg->SetFileName(folder / name);
+    jpeg->SetNumberOfDimensions(2);
+    jpeg->SetDimensions(0, 16);
+    jpeg->SetDimensions(1, 16);
+    jpeg->SetComponentType(itk::IOComponentEnum::UCHAR);
+    jpeg->SetNumberOfComponents(4);
+    jpeg->Write(pixels.data());
+  }
+  EXPECT_NE(GetError([&] { Open(folder / "a.jpg"); }).find("CMYK"), std::string::npos);
+  EXPECT_NE(GetError([&] { Open(folder / "slices"); }).find("a1.jpg: its colours are CMYK"), std::string::npos);
 }
 
 TEST(ItkFormatsLimits, ATruncatedFileIsNoticed)

@@ -43,8 +43,10 @@ struct TiffTestPage
   std::uint32_t              SubfileType = 0;
   std::string                Description;
   std::uint32_t              PixelsPerCentimetre = 0;
-  std::vector<std::uint64_t> ColourTable; // all reds, all greens, all blues
-  std::vector<std::string>   Blocks;      // the strips' or tiles' bytes
+  std::uint32_t              PixelsPerNothing = 0; // a resolution without a unit
+  std::uint16_t              Orientation = 0;      // 0: none is written
+  std::vector<std::uint64_t> ColourTable;          // all reds, all greens, all blues
+  std::vector<std::string>   Blocks;               // the strips' or tiles' bytes
 };
 
 /** A classic or a big TIFF file in either byte order, for machines with the least significant byte first. */
@@ -98,6 +100,16 @@ public:
       this->AddNumbers(entries, 282, 5, { page.PixelsPerCentimetre, 1 });
       this->AddNumbers(entries, 283, 5, { page.PixelsPerCentimetre, 1 });
       this->AddNumbers(entries, 296, 3, { 3 });
+    }
+    if (page.PixelsPerNothing > 0)
+    {
+      this->AddNumbers(entries, 282, 5, { page.PixelsPerNothing, 1 });
+      this->AddNumbers(entries, 283, 5, { page.PixelsPerNothing, 1 });
+      this->AddNumbers(entries, 296, 3, { 1 });
+    }
+    if (page.Orientation > 0)
+    {
+      this->AddNumbers(entries, 274, 3, { page.Orientation });
     }
     if (!page.ColourTable.empty())
     {

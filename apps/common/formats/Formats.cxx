@@ -4,6 +4,7 @@
 #include "itk/ItkWriter.h"
 #include "nifti/NiftiFiles.h"
 #include "nifti/NiftiHeader.h"
+#include "nifti/NiftiReader.h"
 #include "plain/PlainReader.h"
 #include "plain/PlainWriter.h"
 #include "text/HeaderText.h"
@@ -45,13 +46,21 @@ std::unique_ptr<VolumeReader>
 OpenNifti(const std::string & path, const InputOptions & options, const WarningSink & warn)
 {
   auto              reader = OpenByItk(path, options, warn);
-  const NiftiHeader header(IsNiftiPair(path) ? FindNiftiPair(path).Header : path);
+  const NiftiPair   files = IsNiftiPair(path) ? FindNiftiPair(path) : NiftiPair{ path, path };
+  const NiftiHeader header(files.Header);
   if (header.IsPlacedTwice())
   {
     warn(path + " has two placements that differ, a qform and a sform: the " +
          header.GetPlacement(reader->GetDescription().Grid) + " is taken");
   }
-  return reader;
+  auto plain = OpenPlainNifti(header, files.Voxels, reader->GetDescription());
+  if (plain == nullptr && header.GetRescaling() && reader->GetDescription().NumberOfComponents > 1)
+  {
+    FailToRead(path,
+               "its voxels have several components and a slope, which are read right where they are vectors in an "
+               "uncompressed file; uncompress it, or apply the slope and set scl_slope to 1");
+  }
+  return plain != nullptr ? std::move(plain) : std::move(reader);
 }
 
 template <typename TWriter>

@@ -4,6 +4,7 @@
 #include "itk/Bitmap.h"
 #include "itk/FileIntegrity.h"
 #include "itk/JpegIntegrity.h"
+#include "itk/PictureColours.h"
 #include "itk/PixelComponent.h"
 #include "itk/VtkFile.h"
 #include "nifti/NiftiFiles.h"
@@ -93,6 +94,17 @@ Describe(const std::string & path, const itk::ImageIOBase & imageIO)
   return description;
 }
 
+/** Before version 5.4, ITK's reader of NIfTI puts the spacing in space alone into millimetres. */
+void
+CompleteUnits(const std::string & path, const itk::ImageIOBase & imageIO, ImageGrid & grid)
+{
+  constexpr bool isRestLeft = ITK_VERSION_MAJOR < 5 || (ITK_VERSION_MAJOR == 5 && ITK_VERSION_MINOR < 4);
+  if (isRestLeft && std::string(imageIO.GetNameOfClass()) == "NiftiImageIO")
+  {
+    NiftiHeader(IsNiftiPair(path) ? FindNiftiPair(path).Header : path).CompleteUnits(grid);
+  }
+}
+
 /** Whether ITK's reader of the format reads a region right, without the rest. */
 bool
 ReadsRegions(const itk::ImageIOBase & imageIO)
@@ -156,6 +168,33 @@ GetKnownEnding(const std::string & path)
   return GetMistakenNiftiEnding(path);
 }
 
+/** Calls ITK, some of whose libraries throw what is no std::exception, as HDF5's does. */
+template <typename TFunction>
+void
+CallLibrary(const std::string & path, TFunction && function)
+{
+  try
+  {
+    function();
+  }
+  catch (const std::exception &)
+  {
+    throw;
+  }
+  catch (...)
+  {
+    FailToRead(path, "it is damaged: the library of its format cannot read it");
+  }
+}
+
+/** Whether a file is HDF5, whatever it holds. */
+bool
+IsHdf5(const std::string & path)
+{
+  const std::string sign = "\x89HDF\r\n\x1A\n";
+  return InputFile(path).ReadTextAt(0, sign.size()) == sign;
+}
+
 bool
 IsWhole(const std::vector<std::uint64_t> & size, const Box & box)
 {
@@ -210,6 +249,11 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   {
     FailToRead(path, "it is a NIfTI-2 file, of which only version 1 is supported; save it as NIfTI-1 or NRRD");
   }
+  if (m_ImageIO.IsNull() && IsHdf5(path))
+  {
+    FailToRead(
+      path, "it is an HDF5 file that holds no image as ITK writes it, or is damaged; save its array as .nrrd or .mha");
+  }
   if (m_ImageIO.IsNull())
   {
     FailToRead(
@@ -224,9 +268,15 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
     CheckMrcByteOrder(path);
   }
   this->ReadHeader();
+  const std::string colourFault = FindColourFault(*m_ImageIO);
+  if (!colourFault.empty())
+  {
+    FailToRead(path, colourFault);
+  }
   m_Description = Describe(path, *m_ImageIO);
+  CompleteUnits(path, *m_ImageIO, m_Description.Grid);
   m_ReadsParts = ReadsRegions(*m_ImageIO);
-  CheckFileIsWhole(path, *m_ImageIO);
+  CallLibrary(path, [&] { CheckFileIsWhole(path, *m_ImageIO); });
   if (IsVtkText(*m_ImageIO))
   {
     m_Whole = ReadVtkText(path, m_Description);
@@ -261,14 +311,22 @@ ItkReader::ReadHeader()
     }
     else
     {
-      m_ImageIO->SetFileName(m_Name);
-      m_ImageIO->ReadImageInformation();
+      CallLibrary(m_Path, [&] {
+        m_ImageIO->SetFileName(m_Name);
+        m_ImageIO->ReadImageInformation();
+      });
     }
   }
   catch (const itk::ExceptionObject & error)
   {
-    FailToRead(m_Path, GetReason(error));
+    FailToRead(m_Path, IsHdf5(m_Path) ? "it is damaged (" + GetReason(error) + ')' : GetReason(error));
   }
+}
+
+ItkReader::~ItkReader()
+{
+  const WatchedTask task("cannot read " + m_Path);
+  m_ImageIO = nullptr;
 }
 
 bool
@@ -300,8 +358,10 @@ ItkReader::ReadRegion(const Box & box, void * voxels)
   }
   try
   {
-    m_ImageIO->SetIORegion(region);
-    m_ImageIO->Read(voxels);
+    CallLibrary(m_Path, [&] {
+      m_ImageIO->SetIORegion(region);
+      m_ImageIO->Read(voxels);
+    });
   }
   catch (const itk::ExceptionObject & error)
   {

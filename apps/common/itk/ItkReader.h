@@ -18,6 +18,8 @@ public:
    * \throw std::runtime_error that says why the file cannot be read, or is not whole */
   explicit ItkReader(const std::string & path, const std::string & meantFormat = {});
 
+  ~ItkReader() override;
+
   std::vector<std::string>
   GetFiles() const override;
 

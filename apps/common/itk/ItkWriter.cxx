@@ -9,6 +9,7 @@
 #include "system/files/CurrentFolder.h"
 #include "system/files/InputFile.h"
 #include "system/files/OutputFile.h"
+#include "system/process/WatchedTask.h"
 #include "text/HeaderText.h"
 
 #include "itkImageFileReader.h" // registers the formats
@@ -71,6 +72,20 @@ CheckSize(const std::string & path, const ImageDescription & description, const 
            "its format holds up to " + std::to_string(largest) + " voxels along an axis, not " + std::to_string(size) +
              "; .mha, .mhd and .nrrd have no such limit");
     }
+  }
+}
+
+/** ITK writes other components than those into BMP and JPEG files, too, which programs take for other colours. */
+void
+CheckComponents(const std::string & path, const ImageDescription & description, const itk::ImageIOBase & imageIO)
+{
+  const std::string  format = imageIO.GetNameOfClass();
+  const unsigned int components = description.NumberOfComponents;
+  if ((format == "BMPImageIO" || format == "JPEGImageIO") && components != 1 && components != 3)
+  {
+    Fail(path,
+         "its format holds grey values or colours of 3 components, not " + std::to_string(components) +
+           " components; use .tif, .mha or .nrrd" + (components < 5 ? ", or .png in 2D" : ""));
   }
 }
 
@@ -202,6 +217,7 @@ ItkWriter::MakeImageIO(const ImageDescription & description) const
 void
 ItkWriter::WriteFile(const ImageDescription & description, const void * voxels) const
 {
+  const WatchedTask   task("cannot write " + m_Path);
   const CurrentFolder folder(m_File.parent_path());
   // Some formats are written to the end only when their writer is gone.
   this->MakeImageIO(description)->Write(voxels);
@@ -262,7 +278,9 @@ ItkWriter::Begin(const ImageDescription & description)
   m_Folder = std::make_unique<TemporaryFolder>(m_Path, m_Warn);
   const fs::path output = m_Folder->GetFileName();
   m_File = output.parent_path() / (m_IsGzipped ? "image.nii" : WithEndingInSmallLetters(output.filename()));
-  CheckSize(m_Path, description, *this->MakeImageIO(description));
+  const ImageIOPointer imageIO = this->MakeImageIO(description);
+  CheckSize(m_Path, description, *imageIO);
+  CheckComponents(m_Path, description, *imageIO);
   this->Try();
 }
 

@@ -136,6 +136,7 @@ public:
       }
     }
     CheckOldSlices(m_Path, m_Output); // other programs may have written there meanwhile
+    KeepFilesOfSystems(m_Path, m_Output, folder / m_Output.filename());
   }
 
   std::optional<DetachedPair>

@@ -34,6 +34,13 @@ struct TiffPage
            NumberOfComponents == other.NumberOfComponents && Kind == other.Kind && HasColourMap == other.HasColourMap;
   }
 
+  /** Whether the rows and columns of two pages, as they are stored, point the same way. */
+  bool
+  IsTurnedLike(const TiffPage & other) const
+  {
+    return Orientation == other.Orientation;
+  }
+
   std::uint64_t
   GetPixelBytes() const
   {

@@ -121,7 +121,7 @@ Open(const std::string & path)
 bool
 IsPlain(const std::string & path)
 {
-  return OpenPlainNifti(NiftiHeader(path), path, ItkReader(path).GetDescription()) != nullptr;
+  return OpenPlainNifti(NiftiHeader(path), { path, path }, ItkReader(path).GetDescription()) != nullptr;
 }
 
 /** Compares the whole, and a part, with what ITK reads of the whole. */
@@ -280,10 +280,12 @@ TEST(NiftiReader, TensorsAndDisplacementsAreLeftToItk)
   ItkReader  other(folder / "a.nii");
   EXPECT_FALSE(IsPlain(folder / "a.nii"));
   EXPECT_EQ(ReadAll<float>(*reader), ReadAll<float>(other));
-  EXPECT_NE(OpenPlainNifti(NiftiHeader(folder / "vectors.nii"), folder / "vectors.nii", vectors), nullptr);
+  EXPECT_NE(
+    OpenPlainNifti(NiftiHeader(folder / "vectors.nii"), { folder / "vectors.nii", folder / "vectors.nii" }, vectors),
+    nullptr);
   file.Put(68, std::int16_t{ 1006 });
   folder.WriteFile("a.nii", file.GetText());
-  EXPECT_EQ(OpenPlainNifti(NiftiHeader(folder / "a.nii"), folder / "a.nii", vectors), nullptr);
+  EXPECT_EQ(OpenPlainNifti(NiftiHeader(folder / "a.nii"), { folder / "a.nii", folder / "a.nii" }, vectors), nullptr);
 }
 
 TEST(NiftiReader, ReadsBothFilesOfAPair)
@@ -304,9 +306,10 @@ TEST(NiftiReader, ReadsBothFilesOfAPair)
       const auto reader = Open(folder / name);
       EXPECT_EQ(ReadAll<std::int16_t>(*reader), MakeNumbers<std::int16_t>()) << name;
     }
-    EXPECT_NE(
-      OpenPlainNifti(NiftiHeader(folder / "a.hdr"), folder / "a.img", ItkReader(folder / "a.hdr").GetDescription()),
-      nullptr);
+    EXPECT_NE(OpenPlainNifti(NiftiHeader(folder / "a.hdr"),
+                             { folder / "a.hdr", folder / "a.img" },
+                             ItkReader(folder / "a.hdr").GetDescription()),
+              nullptr);
   }
 }
 

@@ -53,7 +53,7 @@ OpenNifti(const std::string & path, const InputOptions & options, const WarningS
     warn(path + " has two placements that differ, a qform and a sform: the " +
          header.GetPlacement(reader->GetDescription().Grid) + " is taken");
   }
-  auto plain = OpenPlainNifti(header, files.Voxels, reader->GetDescription());
+  auto plain = OpenPlainNifti(header, files, reader->GetDescription());
   if (plain == nullptr && header.GetRescaling() && reader->GetDescription().NumberOfComponents > 1)
   {
     FailToRead(path,

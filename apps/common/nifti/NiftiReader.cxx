@@ -58,11 +58,20 @@ Rescale(TStored value, const Rescaling & rescaling)
 class NiftiReader : public VolumeReader
 {
 public:
-  NiftiReader(const PlainLayout & layout, const ImageDescription & description, const Rescaling & rescaling)
-    : m_Stored(layout)
+  NiftiReader(const std::string &      header,
+              const PlainLayout &      layout,
+              const ImageDescription & description,
+              const Rescaling &        rescaling)
+    : m_Stored(header, layout)
     , m_Rescaling(rescaling)
   {
     m_Description = description;
+  }
+
+  std::vector<std::string>
+  GetFiles() const override
+  {
+    return m_Stored.GetFiles();
   }
 
   bool
@@ -136,11 +145,11 @@ NiftiReader::Read(const Box & box, void * voxels)
 } // namespace
 
 std::unique_ptr<VolumeReader>
-OpenPlainNifti(const NiftiHeader & header, const std::string & voxels, const ImageDescription & description)
+OpenPlainNifti(const NiftiHeader & header, const NiftiPair & files, const ImageDescription & description)
 {
-  const auto      stored = header.GetComponent();
-  const bool      isNifti = description.Format == "NIfTI" && (header.IsSingleFile() || header.IsOfPair());
-  const bool      isCompressed = header.IsSingleFile() ? header.IsCompressed() : HasEnding(ToLower(voxels), ".gz");
+  const auto stored = header.GetComponent();
+  const bool isNifti = description.Format == "NIfTI" && (header.IsSingleFile() || header.IsOfPair());
+  const bool isCompressed = header.IsSingleFile() ? header.IsCompressed() : HasEnding(ToLower(files.Voxels), ".gz");
   const Rescaling rescaling = header.GetRescaling();
   const bool      isSideBySide = header.HasComponentsSideBySide();
   const bool      isKnown = isSideBySide ? description.Kind != VoxelKind::Vector && !rescaling
@@ -151,11 +160,11 @@ OpenPlainNifti(const NiftiHeader & header, const std::string & voxels, const Ima
   }
   const bool isReal = *stored == ElementType::Float || *stored == ElementType::Double;
   const auto meant = rescaling && !isReal ? ElementType::Float : *stored;
-  const auto layout = MakeLayout(header, voxels, description);
+  const auto layout = MakeLayout(header, files.Voxels, description);
   const auto section = layout.Sections.front();
-  if (meant != description.Component || InputFile(voxels).GetSize() < section.Offset + section.Size)
+  if (meant != description.Component || InputFile(files.Voxels).GetSize() < section.Offset + section.Size)
   {
     return nullptr;
   }
-  return std::make_unique<NiftiReader>(layout, description, rescaling);
+  return std::make_unique<NiftiReader>(files.Header, layout, description, rescaling);
 }

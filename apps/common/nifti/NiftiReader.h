@@ -2,18 +2,18 @@
 #ifndef NiftiReader_h
 #define NiftiReader_h
 
+#include "nifti/NiftiFiles.h"
 #include "nifti/NiftiHeader.h"
 #include "volumes/VolumeReader.h"
 
 #include <memory>
-#include <string>
 
 /** Opens a NIfTI or Analyze file whose voxels stand in it uncompressed, so that any part is read without the rest. The
  * voxels are those that ITK reads of it.
- * \param voxels the file that holds them: that of the header, or the other one of a pair
+ * \param files that of the header and that of the voxels, which may be one
  * \param description the image as ITK describes it
  * \return nullptr if the voxels are stored in a way that only ITK reads */
 std::unique_ptr<VolumeReader>
-OpenPlainNifti(const NiftiHeader & header, const std::string & voxels, const ImageDescription & description);
+OpenPlainNifti(const NiftiHeader & header, const NiftiPair & files, const ImageDescription & description);
 
 #endif

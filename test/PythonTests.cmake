@@ -65,6 +65,7 @@ add_python_test(programs/subdivide_volume_pieces_test.py PROGRAMS SubdivideVolum
 add_python_test(programs/subdivide_volume_processes_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_reports_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_streams_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_text_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_truncated_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/compare_volumes_test.py PROGRAMS CompareVolumes)
 foreach(script experiments_test.py experiments_surfaces_test.py)

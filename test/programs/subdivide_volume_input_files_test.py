@@ -8,7 +8,7 @@ import struct
 import unittest
 
 from subdivide_volume_case import ProgramTest, noise
-from subdivide_volume_files import meta_header, write_meta
+from subdivide_volume_files import meta_header, write_dicom_slice, write_meta
 
 SIZE = [7, 6, 5]
 VOXELS = array.array("H", noise(210)).tobytes()
@@ -74,6 +74,14 @@ class InputFiles(ProgramTest):
             os.symlink(f"../elsewhere/old_{z:04d}.bmp", self.path(f"s/slice_{z}.bmp"))
         self.assert_all_refused("s", "s/slice_3.bmp", "elsewhere/old_0003.bmp")
         self.assert_refused("s", "elsewhere/")
+
+    def test_a_slice_of_a_series(self):
+        for z in range(5):
+            os.makedirs(self.path("d/more"), exist_ok=True)
+            write_dicom_slice(self.path(f"d/more/im{z}.img"), "1.2.3.4", z, [7, 6], noise(42, seed=z), [1, 1, 1])
+        for source in ("d", "d/more"):
+            self.assert_all_refused(source, "d/more/im3.img", "d/more/im0.hdr")
+        self.assertEqual(self.run_program("d", "d/doubled.mha", cwd=self.folder).returncode, 0)
 
     def test_the_folder_that_holds_an_earlier_output(self):
         write_meta(self.path("in.mha"), SIZE, "H", noise(210))

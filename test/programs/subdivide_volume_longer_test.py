@@ -114,7 +114,11 @@ class Longer(ProgramTest):
         for more in (b"\0", LITTLE[:PLANE]):
             self.assert_refused("b.nii", content + more, "more than")
             self.assert_refused("b.nii.gz", gzip.compress(content + more), "more than")
-        for slices in (0, 1, 4):
+        for axis, data in ((0, b""), (1, b""), (2, b""), (2, VALUES), (0, VALUES)):
+            empty = bytearray(content[:352] + (content[352:] if data else b""))
+            struct.pack_into("<h", empty, 42 + 2 * axis, 0)
+            self.assert_refused("b.nii", bytes(empty), "no voxels" if axis else "cannot read")
+        for slices in (1, 4):
             shorter = bytearray(content)
             struct.pack_into("<h", shorter, 46, slices)
             self.assert_refused("b.nii", bytes(shorter), "more than")

@@ -104,7 +104,9 @@ CheckLength(const std::string & path, Bytes & bytes, std::uint64_t expected)
 void
 CheckForFaults(const std::string & path, const NiftiHeader & header)
 {
-  const std::string fault = header.FindFault();
+  const std::string fault = header.GetDataBytes() == 0
+                              ? "it has no voxels: a size (dim) or the bits of a voxel (bitpix) in its header are 0"
+                              : header.FindFault();
   if (!fault.empty())
   {
     throw std::runtime_error("cannot read " + path + ": " + fault);

@@ -352,6 +352,19 @@ TEST_F(TiffReaderTest, RefusesPagesThatAreTurnedInDifferentWays)
   EXPECT_TRUE(m_Warnings.Mention("orientation 3"));
 }
 
+TEST_F(TiffReaderTest, JpegOf12BitsIsNotCalledDamaged)
+{
+  TiffTestFile file;
+  TiffTestPage page;
+  page.Width = 8;
+  page.Height = 8;
+  page.Bits = 12;
+  page.Compression = 7;
+  page.Blocks = { std::string(200, 'x') };
+  file.AddPage(page);
+  EXPECT_TRUE(Contains(this->GetOpeningError(file.GetBytes()), "JPEG of 12 bits"));
+}
+
 TEST_F(TiffReaderTest, AResolutionWithoutAUnitSaysNoSpacing)
 {
   TiffTestPage page;

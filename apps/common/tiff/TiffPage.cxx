@@ -128,6 +128,11 @@ CheckCompression(TiffPage & page, const TiffHandle & tiff, const std::string & n
 {
   const auto compression = GetTag<std::uint16_t>(tiff, TIFFTAG_COMPRESSION);
   page.IsCompressed = compression != COMPRESSION_NONE;
+  if (compression == COMPRESSION_JPEG && page.Bits != 8)
+  {
+    tiff.Fail(name + " is compressed as JPEG of " + std::to_string(page.Bits) +
+              " bits, which the TIFF library does not read; save it with another compression");
+  }
   if (TIFFIsCODECConfigured(compression) == 0)
   {
     const TIFFCodec * codec = TIFFFindCODEC(compression);

@@ -244,6 +244,8 @@ DescribeTiffPage(const TiffHandle & tiff, const std::string & name, std::uint64_
   }
   page.IsTiled = TIFFIsTiled(tiff) != 0;
   page.Orientation = GetTag<std::uint16_t>(tiff, TIFFTAG_ORIENTATION);
+  std::uint16_t orientation = 0;
+  page.SaysOrientation = TIFFGetField(tiff, TIFFTAG_ORIENTATION, &orientation) != 0;
   SetComponent(page, tiff, name);
   SetKind(page, tiff, name);
   CheckCompression(page, tiff, name);

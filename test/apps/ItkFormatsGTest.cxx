@@ -3,6 +3,7 @@
 #include "TestFolder.h"
 #include "VolumeTestImages.h"
 #include "formats/CreateVolume.h"
+#include "itk/LibraryReason.h"
 
 #include "itkJPEGImageIO.h"
 
@@ -154,6 +155,21 @@ TEST(ItkFormatsLimits, VectorsOfNiftiAreReadRight)
   const auto plane = static_cast<std::ptrdiff_t>(9 * 7 * 12);
   EXPECT_EQ(ReadVoxels(*reader, { { 0, 9 }, { 0, 7 }, { 2, 1 } }),
             std::vector<char>(voxels.begin() + 2 * plane, voxels.begin() + 3 * plane));
+}
+
+TEST(ItkFormatsLimits, ReasonsHaveNoPlacesInTheCode)
+{
+  const auto getReason = [](const std::string & text) { return GetReason(std::runtime_error(text), "/a/b.nrrd"); };
+  EXPECT_EQ(
+    getReason("itk::ERROR: NrrdImageIO(0x55e81b31fd40): ReadImageInformation: Error reading /a/b.nrrd:\n[nrrd] "
+              "nrrdLoad: trouble reading \"/a/b.nrrd\"\n[nrrd] _nrrdFormatNRRD_read:\n[nrrd] _nrrdRead: fread got "
+              "only 629"),
+    "fread got only 629");
+  EXPECT_EQ(getReason("ITK ERROR: ImageIO(0x55): Read: nothing there"), "nothing there");
+  EXPECT_EQ(getReason("/a/b.nrrd is not recognized as a NIFTI file"), "it is not recognized as a NIFTI file");
+  EXPECT_EQ(getReason("Unknown component type: itk::CommonEnums::IOComponent::UNKNOWNCOMPONENTTYPE"),
+            "its voxels are of a type that is not supported");
+  EXPECT_EQ(getReason("Unrecognized mode"), "Unrecognized mode");
 }
 
 TEST(ItkFormatsLimits, CmykIsNotTakenForOtherColours)

@@ -265,6 +265,31 @@ TEST(NiftiReader, WhatItkRescalesWrongIsRefused)
   EXPECT_TRUE(Contains(test(32, 8, { 5, 4, 3 }), "scl_slope"));
 }
 
+// ITK ends the program where such a matrix is to be turned into directions.
+TEST(NiftiReader, PlacementsThatAreNotFiniteAreRefused)
+{
+  const TestFolder folder;
+  const auto       getError = [&](std::size_t code, std::size_t place, float number) {
+    NiftiBytes file(4, 2, false);
+    file.SetSize({ 5, 4, 3, 2 });
+    file.Put(280, 1.0f);
+    file.Put(300, 1.0f);
+    file.Put(320, 1.0f);
+    file.Put(code, std::int16_t{ 1 });
+    file.Put(place, number);
+    file.PutVoxels(MakeNumbers<std::int16_t>());
+    folder.WriteFile("a.nii", file.GetText());
+    return GetError([&] { Open(folder / "a.nii"); });
+  };
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(Contains(getError(254, 280, nan), "not finite"));
+  EXPECT_TRUE(Contains(getError(254, 324, -std::numeric_limits<float>::infinity()), "not finite"));
+  EXPECT_TRUE(Contains(getError(252, 256, nan), "not finite"));
+  EXPECT_TRUE(Contains(getError(252, 276, nan), "not finite"));
+  EXPECT_EQ(getError(252, 280, nan), ""); // the matrix does not count
+  EXPECT_EQ(getError(254, 256, nan), "");
+}
+
 // ITK turns round the order of tensors' components, and some of its versions the signs of displacements.
 TEST(NiftiReader, TensorsAndDisplacementsAreLeftToItk)
 {

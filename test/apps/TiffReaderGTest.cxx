@@ -348,8 +348,21 @@ TEST_F(TiffReaderTest, RefusesPagesThatAreTurnedInDifferentWays)
   EXPECT_EQ(m_Warnings.GetNumber(), 0u);
   EXPECT_EQ(this->GetOpeningError(make({ 0, 1, 0 })), ""); // 1 is what a page without it has
   EXPECT_EQ(m_Warnings.GetNumber(), 0u);
-  EXPECT_EQ(this->GetOpeningError(make({ 3, 3 })), "");
+  EXPECT_EQ(this->GetOpeningError(make({ 3, 0, 3 })), ""); // said once for all
   EXPECT_TRUE(m_Warnings.Mention("orientation 3"));
+}
+
+TEST_F(TiffReaderTest, JpegOf12BitsIsNotCalledDamaged)
+{
+  TiffTestFile file;
+  TiffTestPage page;
+  page.Width = 8;
+  page.Height = 8;
+  page.Bits = 12;
+  page.Compression = 7;
+  page.Blocks = { std::string(200, 'x') };
+  file.AddPage(page);
+  EXPECT_TRUE(Contains(this->GetOpeningError(file.GetBytes()), "JPEG of 12 bits"));
 }
 
 TEST_F(TiffReaderTest, AResolutionWithoutAUnitSaysNoSpacing)

@@ -81,7 +81,7 @@ class Errors(ProgramTest):
     def test_files_that_cannot_be_read(self):
         out = self.path("out.mha")
         self.assert_fails(self.run_program(self.path("none.mha"), out), 1, "none.mha", "No such file")
-        self.assert_fails(self.run_program(self.folder, out), 1, "DICOM")
+        self.assert_fails(self.run_program(self.folder, out), 1, "no DICOM series with images, and no slices")
         for name, content in (("empty.mha", b""), ("text.txt", b"hello"), ("a.nrrd", b"hello"), ("a.png", b"hello")):
             with open(self.path(name), "wb") as file:
                 file.write(content)

@@ -4,6 +4,7 @@
 #include "itk/Bitmap.h"
 #include "itk/FileIntegrity.h"
 #include "itk/JpegIntegrity.h"
+#include "itk/LibraryReason.h"
 #include "itk/PictureColours.h"
 #include "itk/PixelComponent.h"
 #include "itk/VtkFile.h"
@@ -12,7 +13,6 @@
 #include "system/files/InputFile.h"
 #include "system/process/WatchedTask.h"
 #include "text/HeaderText.h"
-#include "text/OneLineMessage.h"
 #include "volumes/BoxRuns.h"
 #include "volumes/DescriptionCheck.h"
 
@@ -94,6 +94,12 @@ Describe(const std::string & path, const itk::ImageIOBase & imageIO)
   return description;
 }
 
+NiftiHeader
+ReadNiftiHeader(const std::string & path)
+{
+  return NiftiHeader(IsNiftiPair(path) ? FindNiftiPair(path).Header : path);
+}
+
 /** Before version 5.4, ITK's reader of NIfTI puts the spacing in space alone into millimetres. */
 void
 CompleteUnits(const std::string & path, const itk::ImageIOBase & imageIO, ImageGrid & grid)
@@ -101,7 +107,7 @@ CompleteUnits(const std::string & path, const itk::ImageIOBase & imageIO, ImageG
   constexpr bool isRestLeft = ITK_VERSION_MAJOR < 5 || (ITK_VERSION_MAJOR == 5 && ITK_VERSION_MINOR < 4);
   if (isRestLeft && std::string(imageIO.GetNameOfClass()) == "NiftiImageIO")
   {
-    NiftiHeader(IsNiftiPair(path) ? FindNiftiPair(path).Header : path).CompleteUnits(grid);
+    ReadNiftiHeader(path).CompleteUnits(grid);
   }
 }
 
@@ -209,15 +215,6 @@ IsWhole(const std::vector<std::uint64_t> & size, const Box & box)
 }
 } // namespace
 
-std::string
-GetReason(const std::exception & error)
-{
-  const auto * const itkError = dynamic_cast<const itk::ExceptionObject *>(&error);
-  const std::string  text = MakeOneLine(itkError != nullptr ? itkError->GetDescription() : error.what());
-  const std::string  start = "ITK ERROR: ";
-  return text.rfind(start, 0) == 0 ? text.substr(start.size()) : text;
-}
-
 ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   : m_Path(path)
 {
@@ -231,6 +228,11 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
     FindNiftiPair(path); // says which file of the two is not there
   }
   InputFile{ path }; // says why it cannot be opened, and keeps pipes from being waited for
+  if (!ReadNiftiHeader(path).IsPlacedFinitely())
+  {
+    FailToRead(path,
+               "its placement (qform or sform) has numbers that are not finite; --raw reads it without its header");
+  }
   const std::string fault = FindJpegFault(path);
   if (!fault.empty())
   {
@@ -319,7 +321,7 @@ ItkReader::ReadHeader()
   }
   catch (const itk::ExceptionObject & error)
   {
-    FailToRead(m_Path, IsHdf5(m_Path) ? "it is damaged (" + GetReason(error) + ')' : GetReason(error));
+    FailToRead(m_Path, IsHdf5(m_Path) ? "it is damaged (" + GetReason(error, m_Path) + ')' : GetReason(error, m_Path));
   }
 }
 
@@ -367,7 +369,8 @@ ItkReader::ReadRegion(const Box & box, void * voxels)
   {
     const std::string & format = m_Description.Format;
     const bool          isPicture = format == "PNG" || format == "JPEG" || format == "BMP";
-    FailToRead(m_Path, isPicture ? "its pixels cannot be decoded; it is damaged or truncated" : GetReason(error));
+    FailToRead(m_Path,
+               isPicture ? "its pixels cannot be decoded; it is damaged or truncated" : GetReason(error, m_Path));
   }
 }
 

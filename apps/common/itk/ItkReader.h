@@ -47,8 +47,4 @@ private:
   std::vector<char>           m_Whole;
 };
 
-/** What an exception says, less the place in the code that ITK's exceptions name. */
-std::string
-GetReason(const std::exception & error);
-
 #endif

@@ -3,6 +3,7 @@
 #include "deflate/ParallelDeflate.h"
 #include "headers/Metadata.h"
 #include "itk/ItkReader.h"
+#include "itk/LibraryReason.h"
 #include "itk/PixelComponent.h"
 #include "itk/WrittenImage.h"
 #include "nifti/NiftiFiles.h"

@@ -261,6 +261,26 @@ NiftiHeader::GetMatrix() const
 }
 
 bool
+NiftiHeader::IsPlacedFinitely() const
+{
+  const auto areFinite = [this](std::size_t place, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (!std::isfinite(this->Get<float>(place + 4 * i)))
+      {
+        return false;
+      }
+    }
+    return true;
+  };
+  constexpr std::size_t quaternionNumbers = 6; // with the offsets after it
+  constexpr std::size_t matrixNumbers = 12;
+  return !this->IsPlaced() ||
+         ((this->Get<std::int16_t>(QuaternionCode) <= 0 || areFinite(Quaternion, quaternionNumbers)) &&
+          (this->Get<std::int16_t>(MatrixCode) <= 0 || areFinite(Rows, matrixNumbers)));
+}
+
+bool
 NiftiHeader::IsPlaced() const
 {
   return m_IsComplete && m_Bytes[Magic] == 'n' &&

@@ -75,6 +75,10 @@ public:
   std::string
   FindFault() const;
 
+  /** Whether the placements that it has are of finite numbers: ITK ends the program over others. */
+  bool
+  IsPlacedFinitely() const;
+
   /** Whether it places the voxels at all. */
   bool
   IsPlaced() const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "itk/Bitmap.h"
-#include "itk/ItkReader.h"
 #include "itk/JpegIntegrity.h"
+#include "itk/LibraryReason.h"
 #include "itk/PictureColours.h"
 #include "slices/SliceFile.h"
 #include "system/files/InputFile.h"

@@ -25,6 +25,7 @@ struct TiffPage
   bool                          IsTiled = false;
   bool                          IsCompressed = false;
   std::uint16_t                 Orientation = 1; // 1: rows from top to bottom, columns from left to right
+  bool                          SaysOrientation = false;
 
   /** Whether the pixels of two pages make one volume. */
   bool

@@ -150,7 +150,7 @@ TiffReader::ComparePage(const TiffPage & page, const std::string & name)
     m_Tiff.Fail(name + " is " + page.GetText() + ", those before are " + m_First.GetText() +
                 ": pages of one size and type make a volume");
   }
-  else if (!page.IsTurnedLike(m_First))
+  else if (page.SaysOrientation && !page.IsTurnedLike(m_First)) // some programs say it once for all pages
   {
     m_Tiff.Fail(name + " asks to be shown in another way (orientation " + std::to_string(page.Orientation) +
                 ") than those before (orientation " + std::to_string(m_First.Orientation) +

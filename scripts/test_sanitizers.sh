@@ -1,18 +1,52 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Builds the kernel and the array layer with their tests, without ITK and by the portable target, under the address and
-# undefined-behaviour sanitizers and under the thread sanitizer, and runs the tests; a finding makes one fail:
-#   test_sanitizers.sh [PRESET OF test/array ...]
+# Builds tests under the address and undefined-behaviour sanitizers and under the thread sanitizer, and runs them; a
+# finding makes it fail.
+#   test_sanitizers.sh                          the kernel and the array layer, without ITK and by the portable target
+#   test_sanitizers.sh PRESET OF test/array ... the same as the presets say: asan-vectors and tsan-vectors have all targets
+#   test_sanitizers.sh whole [asan|tsan]        the tests of the filter and of the programs, then all targets; an hour or more
 set -euo pipefail
-cd "$(dirname "$0")/../test/array"
+cd "$(dirname "$0")/.."
 if command -v ccache > /dev/null; then
-  export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+fi
+
+test_array()
+{
+  (cd test/array && cmake --preset "$1" && cmake --build --preset "$1" --parallel "$(nproc)")
+  ctest --test-dir "build/array-$1" --output-on-failure
+}
+
+# The programs work in a child process and keep what libraries print to themselves, so that findings go to files.
+test_whole()
+{
+  local findings="build/$1/findings"
+  cmake --preset "$1"
+  cmake --build --preset "$1" --parallel "$(nproc)"
+  rm -rf "$findings"
+  mkdir "$findings"
+  local code=0
+  ctest --preset "$1" --parallel "$(nproc)" || code=$?
+  if [[ -n $(ls "$findings") ]]; then
+    tail -n +1 "$findings"/*
+    return 1
+  fi
+  return "$code"
+}
+
+whole=false
+if [[ ${1:-} == whole ]]; then
+  whole=true
+  shift
 fi
 if [[ $# == 0 ]]; then
   set -- asan tsan
 fi
 for preset in "$@"; do
-  cmake --preset "$preset"
-  cmake --build --preset "$preset" --parallel "$(nproc)"
-  ctest --test-dir "../../build/array-$preset" --output-on-failure
+  if "$whole"; then
+    test_whole "$preset"
+    test_array "$preset-vectors"
+  else
+    test_array "$preset"
+  fi
 done

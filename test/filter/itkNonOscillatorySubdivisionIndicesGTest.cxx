@@ -91,7 +91,7 @@ TEST(NonOscillatorySubdivisionIndices, OverflowIsAnError)
 TEST(NonOscillatorySubdivisionIndices, WideIntegersAreCopiedExactly)
 {
   const auto image = ImageOf<WideImage>(MakeRegion<WideImage>({ 5, -3 }, { 33, 7 }), [](const auto & index) {
-    return std::numeric_limits<std::int64_t>::max() - 7 * index[0] - 1001 * index[1];
+    return std::numeric_limits<std::int64_t>::max() - 7 * index[0] - 1001 * (index[1] + 3);
   });
   auto       filter = itk::NonOscillatorySubdivisionImageFilter<WideImage>::New();
   filter->SetSubdividedAxes(itk::FixedArray<bool, 2>(false));

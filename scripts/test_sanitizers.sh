@@ -3,8 +3,9 @@
 # Builds tests under the address and undefined-behaviour sanitizers and under the thread sanitizer, and runs them; a
 # finding makes it fail.
 #   test_sanitizers.sh                          the kernel and the array layer, without ITK and by the portable target
-#   test_sanitizers.sh PRESET OF test/array ... the same as the presets say: asan-vectors and tsan-vectors have all targets
-#   test_sanitizers.sh whole [asan|tsan]        the tests of the filter and of the programs, then all targets; an hour or more
+#   test_sanitizers.sh PRESET OF test/array ... the same by these presets; asan-vectors has all targets
+#   test_sanitizers.sh whole [asan|tsan]        the whole suite, the programs' tests in Python too, with all targets and
+#                                               clang: hours, fewer with a small SUBDIVISION_CASES
 set -euo pipefail
 cd "$(dirname "$0")/.."
 if command -v ccache > /dev/null; then
@@ -20,6 +21,7 @@ test_array()
 # The programs work in a child process and keep what libraries print to themselves, so that findings go to files.
 test_whole()
 {
+  scripts/install_packages.sh build test clang
   local findings="build/$1/findings"
   cmake --preset "$1"
   cmake --build --preset "$1" --parallel "$(nproc)"
@@ -45,7 +47,6 @@ fi
 for preset in "$@"; do
   if "$whole"; then
     test_whole "$preset"
-    test_array "$preset-vectors"
   else
     test_array "$preset"
   fi

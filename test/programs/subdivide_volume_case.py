@@ -13,6 +13,12 @@ from subdivide_volume_files import Meta
 PROGRAM = os.environ.get("SUBDIVIDE_VOLUME")
 
 
+def skip_under_sanitizers(test, why="sanitizers take memory of their own"):
+    with open(os.environ["SUBDIVIDE_VOLUME"], "rb") as file:
+        if re.search(b"__(asan|tsan)_init", file.read()):
+            test.skipTest(why)
+
+
 def noise(count, low=0, high=1000, seed=1):
     source = random.Random(seed)
     return [source.randrange(low, high) for _ in range(count)]

@@ -20,6 +20,7 @@ import threading
 import time
 import unittest
 
+from subdivide_volume_case import skip_under_sanitizers
 from subdivide_volume_faults import KINDS, Scene
 
 STEPS = int(os.environ.get("FAULT_STEPS", "2"))
@@ -111,6 +112,7 @@ class Faults(unittest.TestCase):
         return lambda: resource.setrlimit(what, (value, value))
 
     def test_memory_is_short(self):
+        skip_under_sanitizers(self)
         for kind in self.get_kinds(2):
             scene = self.make_scene(kind)
             for size in spread(150 << 20, 600 << 20):
@@ -122,6 +124,7 @@ class Faults(unittest.TestCase):
             self.assertIn("--memory", result.stderr)
 
     def test_files_cannot_be_opened(self):
+        skip_under_sanitizers(self, "sanitizers open pipes of their own")
         for kind in self.get_kinds(3):
             scene = self.make_scene(kind)
             for number in (7, 12) if STEPS < 5 else range(3, 3 + STEPS):

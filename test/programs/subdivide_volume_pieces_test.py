@@ -10,7 +10,7 @@ import random
 import resource
 import unittest
 
-from subdivide_volume_case import PROGRAM, ProgramTest, noise
+from subdivide_volume_case import PROGRAM, ProgramTest, noise, skip_under_sanitizers
 from subdivide_volume_files import Meta, meta_header, write_compressed_meta, write_meta, write_nrrd, write_tiff
 
 
@@ -84,6 +84,7 @@ class Pieces(ProgramTest):
 
     def test_the_plan_of_a_very_large_volume(self):
         """It takes little memory itself."""
+        skip_under_sanitizers(self)
         with open(self.path("in.raw"), "wb") as file:
             try:
                 file.truncate(2 * 8192 ** 3)  # a size, and no bytes

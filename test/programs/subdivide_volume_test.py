@@ -14,7 +14,7 @@ import sys
 import unittest
 import xml.etree.ElementTree
 
-from subdivide_volume_case import PROGRAM, ProgramTest, noise
+from subdivide_volume_case import PROGRAM, ProgramTest, noise, skip_under_sanitizers
 from subdivide_volume_errors import Errors  # noqa: F401: its tests run from here
 from subdivide_volume_files import (META_TYPES, OPTION_TYPES, Meta, meta_header, read_nrrd, write_compressed_meta,
                                     write_dicom_slice, write_meta, write_nifti, write_nrrd)
@@ -209,9 +209,7 @@ class Streaming(ProgramTest):
         self.assertEqual(Meta(self.path("target.mha")).size, [8, 8])
 
     def test_a_memory_budget_is_kept(self):
-        with open(PROGRAM, "rb") as file:
-            if re.search(b"__(asan|tsan)_init", file.read()):
-                self.skipTest("sanitizers take memory of their own")
+        skip_under_sanitizers(self)
         side, budget = 240, 150 * 10 ** 6
         with open(self.path("in.mha"), "wb") as file:
             file.write(meta_header([side] * 3, "H"))

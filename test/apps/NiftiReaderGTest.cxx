@@ -10,7 +10,9 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <zlib.h>
 
 namespace
@@ -252,7 +254,8 @@ TEST(NiftiReader, WhatItkRescalesWrongIsRefused)
     NiftiBytes file(type, bytes, false);
     file.SetSize(size);
     file.Put(112, 2.0f);
-    file.PutVoxels(MakeVoxels<std::uint8_t>(Voxels * bytes));
+    const std::size_t voxels = std::accumulate(size.begin(), size.end(), std::size_t{ 1 }, std::multiplies<>());
+    file.PutVoxels(MakeVoxels<std::uint8_t>(voxels * bytes));
     const gzFile gz = gzopen((folder / "a.nii.gz").c_str(), "wb");
     gzwrite(gz, file.GetText().data(), static_cast<unsigned int>(file.GetText().size()));
     gzclose(gz);

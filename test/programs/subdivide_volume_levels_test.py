@@ -5,6 +5,7 @@
 import filecmp
 import os
 import random
+import re
 import subprocess
 import sys
 import unittest

@@ -252,7 +252,12 @@ TEST(NiftiReader, WhatItkRescalesWrongIsRefused)
     NiftiBytes file(type, bytes, false);
     file.SetSize(size);
     file.Put(112, 2.0f);
-    file.PutVoxels(MakeVoxels<std::uint8_t>(Voxels * bytes));
+    std::size_t voxels = 1;
+    for (const std::int16_t axis : size)
+    {
+      voxels *= static_cast<std::size_t>(axis);
+    }
+    file.PutVoxels(MakeVoxels<std::uint8_t>(voxels * bytes));
     const gzFile gz = gzopen((folder / "a.nii.gz").c_str(), "wb");
     gzwrite(gz, file.GetText().data(), static_cast<unsigned int>(file.GetText().size()));
     gzclose(gz);

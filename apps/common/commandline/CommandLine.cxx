@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 
 namespace
 {
@@ -143,7 +144,7 @@ GuessOption(const CLI::App & app, const std::string & unknown)
   return nearest;
 }
 
-/** An unknown option makes its value, too, take the place of a file: it alone is named. */
+/** An unknown option makes its value, too, take the place of a file: where there are some, they alone are named. */
 void
 CheckNothingIsLeft(const CLI::App & app)
 {
@@ -153,16 +154,15 @@ CheckNothingIsLeft(const CLI::App & app)
   {
     unknown.erase(mark);
   }
-  const auto isOption = [](const std::string & word) { return word.size() > 1 && word.front() == '-'; };
-  const auto option = std::find_if(unknown.begin(), unknown.end(), isOption);
-  if (option != unknown.end())
+  std::vector<std::string> options;
+  std::copy_if(unknown.begin(), unknown.end(), std::back_inserter(options), [](const std::string & word) {
+    return word.size() > 1 && word.front() == '-';
+  });
+  const std::vector<std::string> & told = options.empty() ? unknown : options;
+  if (!told.empty())
   {
-    throw UsageError("unknown argument: " + *option + GuessOption(app, *option));
-  }
-  if (!unknown.empty())
-  {
-    throw UsageError((unknown.size() > 1 ? "unknown arguments: " : "unknown argument: ") +
-                     CLI::detail::join(unknown, " "));
+    throw UsageError((told.size() > 1 ? "unknown arguments: " : "unknown argument: ") + CLI::detail::join(told, " ") +
+                     (options.empty() ? "" : GuessOption(app, options.front())));
   }
 }
 

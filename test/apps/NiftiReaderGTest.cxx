@@ -293,6 +293,24 @@ TEST(NiftiReader, PlacementsThatAreNotFiniteAreRefused)
   EXPECT_EQ(getError(254, 256, nan), "");
 }
 
+// Voxels of a VTK file that would be such a placement.
+TEST(NiftiReader, OtherFormatsHaveNoSuchPlacement)
+{
+  const TestFolder  folder;
+  const std::string header = "# vtk DataFile Version 3.0\nx\nBINARY\nDATASET STRUCTURED_POINTS\nDIMENSIONS 9 8 6\n"
+                             "SPACING 1 1 1\nORIGIN 0 0 0\nPOINT_DATA 432\nSCALARS s unsigned_char 1\n"
+                             "LOOKUP_TABLE default\n";
+  NiftiBytes        placed(4, 2, false);
+  placed.SetSize({ 5, 4, 3, 2 });
+  placed.Put(254, std::int16_t{ 1 });
+  placed.Put(280, std::numeric_limits<float>::quiet_NaN());
+  std::string text = header + std::string(432, '\0');
+  ASSERT_LT(header.size(), 252u);
+  text.replace(252, 96, placed.GetText().substr(252, 96));
+  folder.WriteFile("a.vtk", text);
+  EXPECT_EQ(GetError([&] { Open(folder / "a.vtk"); }), "");
+}
+
 // ITK turns round the order of tensors' components, and some of its versions the signs of displacements.
 TEST(NiftiReader, TensorsAndDisplacementsAreLeftToItk)
 {

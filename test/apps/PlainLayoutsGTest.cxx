@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 using namespace VolumeTest;
 using itk::Subdivision::ElementType;
 
@@ -217,6 +219,38 @@ TEST(NrrdLayouts, LeftAnteriorSuperior)
   const auto & grid = reader->GetDescription().Grid;
   EXPECT_EQ(grid.Origin, (std::vector<double>{ 1, -2, 3 }));
   EXPECT_EQ(grid.Directions, (std::vector<std::vector<double>>{ { 1, 0, 0 }, { 0, -1, 0 }, { 0, 0, 1 } }));
+}
+
+// The space of a space with time, which stays the fourth coordinate.
+TEST(NrrdLayouts, SpacesWithTime)
+{
+  const TestFolder folder;
+  const auto       write = [&](const std::string & space) {
+    folder.WriteFile("a.nrrd",
+                     "NRRD0004\ntype: unsigned char\ndimension: 4\nsizes: 3 4 5 2\nencoding: raw\nspace: " + space +
+                       "\nspace directions: (1,0,0,0) (0,2,0,0) (0,0,3,0) (0,0,0,7)\nspace origin: (1,2,3,4)\n\n" +
+                       std::string(120, 'x'));
+  };
+  for (const auto & [space, x, y] : { std::tuple("LPST", 1.0, 1.0),
+                                      std::tuple("left-posterior-superior-time", 1.0, 1.0),
+                                      std::tuple("RAST", -1.0, -1.0),
+                                      std::tuple("right-anterior-superior-time", -1.0, -1.0),
+                                      std::tuple("LAST", 1.0, -1.0),
+                                      std::tuple("scanner-xyz-time", 1.0, 1.0),
+                                      std::tuple("3D-right-handed-time", 1.0, 1.0) })
+  {
+    SCOPED_TRACE(space);
+    write(space);
+    const auto   reader = Open(folder / "a.nrrd");
+    const auto & grid = reader->GetDescription().Grid;
+    EXPECT_EQ(grid.Size, (std::vector<std::uint64_t>{ 3, 4, 5, 2 }));
+    EXPECT_EQ(grid.Spacing, (std::vector<double>{ 1, 2, 3, 7 }));
+    EXPECT_EQ(grid.Origin, (std::vector<double>{ x, 2 * y, 3, 4 }));
+    EXPECT_EQ(grid.Directions,
+              (std::vector<std::vector<double>>{ { x, 0, 0, 0 }, { 0, y, 0, 0 }, { 0, 0, 1, 0 }, { 0, 0, 0, 1 } }));
+  }
+  write("here-and-there");
+  EXPECT_NE(GetError([&] { Open(folder / "a.nrrd"); }).find("a.nrrd: its space here-and-there"), std::string::npos);
 }
 
 TEST(NrrdLayouts, ComponentsComeFirstOrAreMovedThere)

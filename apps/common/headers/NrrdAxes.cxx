@@ -59,6 +59,16 @@ SplitVectors(const std::string & text)
   return words;
 }
 
+/** The space of a space with time, as NRRD names both: RAS of RAST; any other as it is. */
+std::string
+RemoveTime(const std::string & space)
+{
+  const std::string ending = "-time";
+  const bool        isLong = space.size() > ending.size() && space.substr(space.size() - ending.size()) == ending;
+  const bool        isShort = space == "rast" || space == "last" || space == "lpst";
+  return isLong ? space.substr(0, space.size() - ending.size()) : isShort ? space.substr(0, 3) : space;
+}
+
 /** The number of coordinates of the space that the axes lie in; 0: the header speaks of none. */
 std::size_t
 GetSpaceDimension(const std::string & path, const NrrdFields & fields)
@@ -82,17 +92,24 @@ GetSpaceDimension(const std::string & path, const NrrdFields & fields)
     "right-anterior-superior", "left-anterior-superior", "left-posterior-superior", "ras", "las", "lps", "scanner-xyz",
     "3d-right-handed",         "3d-left-handed"
   };
-  if (space && spaces.count(ToLower(*space)) == 0)
+  if (!space)
   {
-    throw HeaderNotUnderstood("the space " + *space);
+    return 0;
   }
-  return space ? 3 : 0;
+  const std::string name = ToLower(*space);
+  const std::string withoutTime = RemoveTime(name);
+  if (spaces.count(withoutTime) == 0)
+  {
+    FailToRead(path, "its space " + *space + " is none of NRRD's");
+  }
+  return name == withoutTime ? 3 : 4;
 }
 } // namespace
 
 std::vector<double>
-GetSigns(const std::string & space, std::size_t dimension)
+GetSigns(const std::string & name, std::size_t dimension)
 {
+  const std::string   space = RemoveTime(name);
   std::vector<double> signs(dimension, 1.0);
   if (space == "right-anterior-superior" || space == "ras")
   {

@@ -48,6 +48,6 @@ private:
 
 /** 1 for each coordinate of a space, given in small letters, that points as in the LPS space, -1 if the other way. */
 std::vector<double>
-GetSigns(const std::string & space, std::size_t dimension);
+GetSigns(const std::string & name, std::size_t dimension);
 
 #endif

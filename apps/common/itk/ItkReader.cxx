@@ -228,11 +228,6 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
     FindNiftiPair(path); // says which file of the two is not there
   }
   InputFile{ path }; // says why it cannot be opened, and keeps pipes from being waited for
-  if (!ReadNiftiHeader(path).IsPlacedFinitely())
-  {
-    FailToRead(path,
-               "its placement (qform or sform) has numbers that are not finite; --raw reads it without its header");
-  }
   const std::string fault = FindJpegFault(path);
   if (!fault.empty())
   {
@@ -265,9 +260,15 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
          : "it is no " + meantFormat + " file, or is damaged at its start, and is in none of the other known formats") +
         ", which SubdivideVolume --formats lists; --raw reads voxels without a header");
   }
-  if (std::string(m_ImageIO->GetNameOfClass()) == "MRCImageIO")
+  const std::string library = m_ImageIO->GetNameOfClass();
+  if (library == "MRCImageIO")
   {
     CheckMrcByteOrder(path);
+  }
+  if (library == "NiftiImageIO" && !ReadNiftiHeader(path).IsPlacedFinitely())
+  {
+    FailToRead(path,
+               "its placement (qform or sform) has numbers that are not finite; --raw reads it without its header");
   }
   this->ReadHeader();
   const std::string colourFault = FindColourFault(*m_ImageIO);

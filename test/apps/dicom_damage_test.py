@@ -8,7 +8,7 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "programs"))
 from subdivide_volume_files import write_dicom_slice  # noqa: E402
 
 PROGRAM = os.environ.get("WATCHED_PROGRAM")

@@ -66,8 +66,9 @@ run_sve_tests()
   QEMU_CPU="max,sve$bits=on,sve-default-vector-length=$((bits / 8))" run_emulated_tests arm64 "$tests"
 }
 
-for machine in "$@"; do
-  echo "== $machine"
+test_machine()
+{
+  local machine=$1
   case $machine in
     arm64)
       unpack_highway arm64
@@ -91,4 +92,24 @@ for machine in "$@"; do
       run_emulated_tests "$machine"
       ;;
   esac
+}
+
+failed=()
+for machine in "$@"; do
+  echo "== $machine"
+  # Within a condition, errors would not end the function.
+  set +e
+  (
+    set -e
+    test_machine "$machine"
+  )
+  status=$?
+  set -e
+  if [[ $status -ne 0 ]]; then
+    failed+=("$machine")
+  fi
 done
+if [[ ${#failed[@]} -gt 0 ]]; then
+  echo "test_other_machines.sh: failed: ${failed[*]}" >&2
+  exit 1
+fi

@@ -44,7 +44,7 @@ COMMON_FOLDERS = {
     "headers": ["text", "system/files", "volumes"],
     "outputs": ["system/files", "system/process", "volumes", "headers"],
     "plain": ["text", "system/files", "volumes", "deflate", "headers", "outputs"],
-    "nifti": ["text", "volumes"],
+    "nifti": ["text", "system/files", "volumes", "headers", "plain"],
     "tiff": ["text", "system/files", "volumes", "outputs"],
     "itk": ["text", "system/files", "system/process", "volumes", "deflate", "headers", "outputs", "nifti"],
     "dicom": ["system/files", "system/process", "volumes"],

@@ -40,13 +40,24 @@ std::unique_ptr<VolumeReader>
 Open(const std::string & path, const InputOptions & input, Warnings & warnings)
 {
   const WatchedOpening opening(path);
-  auto                 reader = OpenVolume(path, input, [&warnings](const std::string & text) { warnings.Add(text); });
-  if (reader->GetDescription().NumberOfComponents != 1)
+  return OpenVolume(path, input, [&warnings](const std::string & text) { warnings.Add(text); });
+}
+
+void
+CheckComponents(const Options & options, const VolumeReader & reference, const VolumeReader & test)
+{
+  const unsigned int components = reference.GetDescription().NumberOfComponents;
+  if (test.GetDescription().NumberOfComponents != components)
   {
-    throw std::runtime_error("cannot compare " + path + ": its voxels have " +
-                             std::to_string(reader->GetDescription().NumberOfComponents) + " components");
+    throw std::runtime_error("cannot compare " + options.TestPath + ": its voxels have " +
+                             std::to_string(test.GetDescription().NumberOfComponents) + " components, those of " +
+                             options.ReferencePath + " have " + std::to_string(components));
   }
-  return reader;
+  if (components > 1 && test.GetDescription().Grid.Size != reference.GetDescription().Grid.Size)
+  {
+    throw std::runtime_error("the images differ in their region: " + options.TestPath + " has other sizes than " +
+                             options.ReferencePath);
+  }
 }
 
 void
@@ -73,6 +84,7 @@ Run(const Options & options)
   const WarningSink     warn = [&warnings](const std::string & text) { warnings.Add(text); };
   const auto            reference = Open(options.ReferencePath, options.Reference, warnings);
   const auto            test = Open(options.TestPath, options.Test, warnings);
+  CheckComponents(options, *reference, *test);
   CheckGrids(reference->GetDescription().Grid, test->GetDescription().Grid, options.IgnoreGeometry);
   const Figures figures = Compare(*reference, *test, options.How);
   CheckMessages(options.TestPath, messages.GetText());
@@ -129,7 +141,8 @@ Describe(CLI::App & app, Options & options)
   app.add_flag("--quiet", options.Quiet, "Print no warnings");
   app.set_version_flag("--version", std::string("CompareVolumes ") + COMPARE_VOLUMES_VERSION);
   app.footer("How the inputs are read (--series, --spacing, --origin, --channel, --frame) goes for both images.\n"
-             "Voxels at which either image is not finite are left out and counted.\n"
+             "Voxels at which either image is not finite are left out and counted. The components of voxels with "
+             "several\nare compared one by one, and each counts as a voxel.\n"
              "In JSON, null stands for a figure that is infinite or undefined, such as the PSNR of equal images.\n\n"
              "Examples:\n"
              "  CompareVolumes truth.mha doubled.nii.gz\n"

@@ -35,7 +35,7 @@ struct Figures
   std::uint64_t       ExcludedVoxels;
 };
 
-/** Compares two images of one number of axes; the grid is the reference's. */
+/** Compares two images of one number of axes and of components; the grid is the reference's. */
 Figures
 Compare(VolumeReader & reference, VolumeReader & test, const Comparison & comparison);
 

@@ -3,6 +3,7 @@
 // INPUT is an image file, or a folder with a DICOM series or with slices.
 
 #include "formats/CreateVolume.h"
+#include "formats/InputSafety.h"
 #include "formats/OpenVolume.h"
 #include "system/process/WatchedRun.h"
 #include "text/OneLineMessage.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 
 namespace
 {
@@ -50,6 +52,7 @@ ExtractSlice(const std::string & inputPath, const std::string & outputPath)
     grid.Directions[axis].resize(axes);
   }
   const auto writer = CreateVolume(outputPath, {}, warn);
+  CheckInputStays(inputPath, *reader, outputPath, *writer, InPlace::Allowed);
   writer->Begin(slice);
   writer->Write(box, values.data());
   writer->Commit();
@@ -74,10 +77,11 @@ RunProgram(const char * inputPath, const char * outputPath)
 int
 main(int argc, char * argv[])
 {
-  if (argc != 3)
+  const int first = argc > 1 && std::strcmp(argv[1], "--") == 0 ? 2 : 1;
+  if (argc != first + 2)
   {
     std::fprintf(stderr, "Usage: ExtractSlice INPUT OUTPUT\n");
     return 2;
   }
-  return RunWatched([&] { return RunProgram(argv[1], argv[2]); });
+  return RunWatched([&] { return RunProgram(argv[first], argv[first + 1]); });
 }

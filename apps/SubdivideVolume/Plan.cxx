@@ -47,11 +47,25 @@ public:
   std::uint64_t
   GetGoodNumber() const;
 
+  /** What as many pieces as there can be need at least. */
+  std::uint64_t
+  GetLeastBytes(unsigned int buffers) const;
+
   /** The least number of pieces that fit a budget, if any does: more pieces never need more memory. */
   std::uint64_t
   FindNumber(std::uint64_t budget, unsigned int buffers) const;
 
 private:
+  std::uint64_t
+  GetMostPieces() const
+  {
+    return this->WritesParts() ? std::min(m_Boxes.size() * GetMaximumNumberOfPieces(m_Boxes.front()), MostPieces) : 1;
+  }
+  std::vector<Box>
+  Split(std::uint64_t number) const;
+  Plan
+  Measure(std::vector<Box> pieces, unsigned int buffers) const;
+
   const LevelChain &       m_Chain;
   const std::vector<Box> & m_Boxes;
   const VolumeReader &     m_Reader;
@@ -59,19 +73,33 @@ private:
   const std::uint64_t      m_FixedBytes;
 };
 
-Plan
-Planner::Make(const std::uint64_t number, const unsigned int buffers) const
+std::vector<Box>
+Planner::Split(const std::uint64_t number) const
 {
-  Plan plan;
+  std::vector<Box> pieces;
   for (const Box & box : m_Boxes)
   {
     const std::uint64_t most = std::min(number, MostPieces);
     const std::uint64_t parts = this->WritesParts() ? (most + m_Boxes.size() - 1) / m_Boxes.size() : 1;
     for (const Box & piece : SplitIntoPieces(box, parts))
     {
-      plan.Pieces.push_back(piece);
+      pieces.push_back(piece);
     }
   }
+  return pieces;
+}
+
+Plan
+Planner::Make(const std::uint64_t number, const unsigned int buffers) const
+{
+  return this->Measure(this->Split(number), buffers);
+}
+
+Plan
+Planner::Measure(std::vector<Box> pieces, const unsigned int buffers) const
+{
+  Plan plan;
+  plan.Pieces = std::move(pieces);
   plan.Buffers = plan.Pieces.size() > 1 ? buffers : 1;
   const std::uint64_t inputBytes = m_Reader.GetDescription().GetVoxelBytes();
   const std::uint64_t outputBytes = m_Chain.GetOutput().GetVoxelBytes();
@@ -102,11 +130,24 @@ Planner::GetGoodNumber() const
 }
 
 std::uint64_t
+Planner::GetLeastBytes(const unsigned int buffers) const
+{
+  // Pieces differ by a row or a plane, and the first and the last need fewer voxels: a few of all are enough.
+  constexpr std::size_t  most = 1000;
+  const std::vector<Box> pieces = this->Split(this->GetMostPieces());
+  std::vector<Box>       some;
+  for (std::size_t i = 0; i < pieces.size(); i += 1 + pieces.size() / most)
+  {
+    some.push_back(pieces[i]);
+  }
+  return this->Measure(std::move(some), buffers).PeakBytes;
+}
+
+std::uint64_t
 Planner::FindNumber(const std::uint64_t budget, const unsigned int buffers) const
 {
   std::uint64_t tooFew = 0;
-  std::uint64_t enough =
-    this->WritesParts() ? std::min(m_Boxes.size() * GetMaximumNumberOfPieces(m_Boxes.front()), MostPieces) : 1;
+  std::uint64_t enough = this->GetMostPieces();
   while (enough - tooFew > 1)
   {
     const std::uint64_t middle = std::min(2 * tooFew + 1, tooFew + (enough - tooFew) / 2);
@@ -120,6 +161,14 @@ Planner::FindNumber(const std::uint64_t budget, const unsigned int buffers) cons
     }
   }
   return enough;
+}
+
+[[noreturn]] void
+FailToKeep(std::uint64_t bytes, bool writesParts)
+{
+  throw std::runtime_error("--memory cannot be kept: these files need about " +
+                           std::to_string((bytes + Megabyte - 1) / Megabyte) +
+                           (writesParts ? " MB" : " MB, since the output cannot be written in pieces"));
 }
 } // namespace
 
@@ -138,15 +187,18 @@ MakePlan(const Options &          options,
   }
   const std::uint64_t budget = options.Memory > 0 ? options.Memory : GetMachineBytes() / 2;
   Plan                plan = planner.Make(planner.GetGoodNumber(), 2);
+  const std::uint64_t least = plan.PeakBytes > budget ? planner.GetLeastBytes(1) : 0;
+  if (least > budget && options.Memory > 0)
+  {
+    FailToKeep(least, planner.WritesParts());
+  }
   for (unsigned int buffers = 2; plan.PeakBytes > budget && buffers > 0; --buffers)
   {
     plan = planner.Make(planner.FindNumber(budget, buffers), buffers);
   }
   if (plan.PeakBytes > budget && options.Memory > 0)
   {
-    throw std::runtime_error("--memory cannot be kept: these files need about " +
-                             std::to_string((plan.PeakBytes + Megabyte - 1) / Megabyte) +
-                             (planner.WritesParts() ? " MB" : " MB, since the output cannot be written in pieces"));
+    FailToKeep(plan.PeakBytes, planner.WritesParts());
   }
   return plan;
 }

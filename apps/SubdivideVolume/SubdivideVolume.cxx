@@ -16,6 +16,7 @@
 #include "commandline/Warnings.h"
 #include "dicom/Dicom.h"
 #include "formats/CreateVolume.h"
+#include "formats/InputSafety.h"
 #include "formats/OpenVolume.h"
 #include "headers/Metadata.h"
 #include "itk/FileIntegrity.h"
@@ -28,7 +29,6 @@
 #include "text/LibraryWarnings.h"
 #include "text/OneLineMessage.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <new>
@@ -58,24 +58,6 @@ GetProgressStyle(const Options & options)
   return IsSeenByUser() ? Progress::Style::Bar : Progress::Style::Lines;
 }
 
-/** \throw std::runtime_error if the folder that is to be replaced is what is read, or holds it */
-void
-CheckFolders(const Options & options)
-{
-  std::error_code error;
-  const fs::path  output = fs::canonical(options.Output, error);
-  if (error || !fs::is_directory(output, error))
-  {
-    return;
-  }
-  const fs::path input = fs::canonical(options.Input, error);
-  if (!error && std::mismatch(output.begin(), output.end(), input.begin(), input.end()).first == output.end())
-  {
-    throw std::runtime_error("cannot write " + options.Output + ": the input " + options.Input +
-                             " is there; name another folder");
-  }
-}
-
 std::unique_ptr<VolumeReader>
 Open(const Options & options, Warnings & warnings)
 {
@@ -90,12 +72,13 @@ Open(const Options & options, Warnings & warnings)
 }
 
 std::unique_ptr<VolumeWriter>
-Create(const Options & options, unsigned int threads, Warnings & warnings)
+Create(const Options & options, const VolumeReader & reader, unsigned int threads, Warnings & warnings)
 {
-  CheckFolders(options);
   OutputOptions writing = options.Writing;
   writing.Threads = threads;
-  return CreateVolume(options.Output, writing, [&warnings](const std::string & text) { warnings.Add(text); });
+  auto writer = CreateVolume(options.Output, writing, [&warnings](const std::string & text) { warnings.Add(text); });
+  CheckInputStays(options.Input, reader, options.Output, *writer, InPlace::Allowed);
+  return writer;
 }
 
 void
@@ -144,7 +127,7 @@ Inform(const Options & options)
   Warnings              warnings(options.Quiet);
   const unsigned int    threads = GetNumberOfThreads(options);
   const auto            reader = Open(options, warnings);
-  const auto            writer = options.Output.empty() ? nullptr : Create(options, threads, warnings);
+  const auto            writer = options.Output.empty() ? nullptr : Create(options, *reader, threads, warnings);
   const LevelChain      chain(reader->GetDescription(), options, threads);
   const Plan            plan = MakePlan(options, chain, { chain.GetWholeOutput() }, *reader, writer.get(), threads);
   PassOn(messages, warnings);
@@ -161,7 +144,7 @@ Subdivide(const Options & options)
   const unsigned int    threads = GetNumberOfThreads(options);
   const std::string     input = DescribeFiles(options.Input);
   const auto            reader = Open(options, warnings);
-  const auto            writer = Create(options, threads, warnings);
+  const auto            writer = Create(options, *reader, threads, warnings);
   Progress              progress(GetProgressStyle(options));
   LevelChain            chain(reader->GetDescription(), options, threads);
   const Plan            plan = MakePlan(options, chain, { chain.GetWholeOutput() }, *reader, writer.get(), threads);
@@ -244,16 +227,9 @@ SubdividePiece(const Options & options)
   Warnings           warnings(options.Quiet);
   const unsigned int threads = GetNumberOfThreads(options);
   const auto         reader = Open(options, warnings);
-  CheckFolders(options);
-  const auto writer =
+  const auto         writer =
     CreatePieceWriter(options.Output, options.Writing, [&warnings](const std::string & text) { warnings.Add(text); });
-  std::error_code error;
-  if (fs::equivalent(options.Input, writer->GetOutput(), error))
-  {
-    throw std::runtime_error("cannot write " + options.Output +
-                             ": it is the input, of which a piece that is run again would make another; name another "
-                             "output");
-  }
+  CheckInputStays(options.Input, *reader, options.Output, *writer, InPlace::Refused);
   LevelChain chain(reader->GetDescription(), options, threads);
   writer->Begin(chain.GetOutput());
   PieceFolder folder(writer->GetOutput(), options.Piece.Pieces);

@@ -51,14 +51,12 @@ private:
 /** \brief A run from array to array. Computes in double if either element type NeedsDouble(), else in float; where no
  * axis is subdivided and the types are the same, elements are copied exactly.
  *
- * Axes may lie in memory in any order and direction. Rows of tiles run along the axis whose elements lie closest in the
- * input, whether it is subdivided or not, unless it is as short as the components of pixels; the output is best laid
- * out in the same order.
- *
+ * Axes may lie in memory in any order and direction: that of their strides, and of their numbers where these are equal.
+ * Rows of tiles run along the axis whose elements lie closest in the input, unless it is as short as the components
+ * of pixels; the output is best laid out alike.
  * The bytes of an element depend on the input, its order in memory among it, and the options alone: not on the box
- * asked for, the tiles or the threads. Strides tell that order, and the axes' numbers where two are equal, as those of
- * axes of one element may be. Where axes lie otherwise, an axis of one element that is not subdivided needs a stride of
- * its own, for the order of a part to be that of the whole. */
+ * asked for, the tiles or the threads. Where axes lie in another order than that of their numbers, one that is not
+ * subdivided and has one element in a part needs a stride of its own there. */
 class NonOscillatorySubdivision_EXPORT Subdivider : public TileRun
 {
 public:

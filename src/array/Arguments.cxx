@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -81,6 +82,10 @@ CheckView(const std::string & what, const BasicArrayView<TVoid> & view)
     const auto magnitude = axis.Stride < 0 ? 0 - static_cast<std::uint64_t>(axis.Stride) : axis.Stride;
     const auto bytes = CheckedMultiply(CheckedMultiply(axis.Size - 1, magnitude), SizeOf(view.Type));
     extent = CheckedAdd(CheckedSigned(extent), CheckedSigned(bytes));
+  }
+  if (extent > static_cast<std::uint64_t>(std::numeric_limits<std::ptrdiff_t>::max()))
+  {
+    throw std::overflow_error(what + " reaches farther than memory does");
   }
 }
 

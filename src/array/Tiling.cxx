@@ -5,6 +5,7 @@
 #include "array/TileAxes.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -173,6 +174,10 @@ Tiling::Tiling(Sizes parents, Flags subdivided, const int radius, const unsigned
   for (const std::uint64_t tiles : m_Tiles)
   {
     number = CheckedMultiply(number, tiles);
+  }
+  if (static_cast<std::size_t>(number) != number)
+  {
+    throw std::overflow_error("there are more tiles than this machine counts");
   }
 }
 

@@ -97,12 +97,13 @@ MakeSettings(const Scheme &   scheme,
   }
   const bool hasY = subdivided.Y && subdivided.Z;
   const Axes axes{ subdivided.X, hasY, subdivided.Y || subdivided.Z };
-  // No memory holds planes of more, and their sizes in bytes could overflow.
-  constexpr std::uint64_t most = std::uint64_t{ 1 } << 40;
-  const std::size_t       height = hasY ? largest.Y : 1;
-  if (largest.X > most || height > most / largest.X)
+  // A sweep has a hundred planes with their halo: no memory holds larger ones, and their sizes in bytes could overflow.
+  constexpr std::uint64_t most =
+    std::min<std::uint64_t>(std::uint64_t{ 1 } << 40, std::numeric_limits<std::size_t>::max() / 4096);
+  const std::size_t height = hasY ? largest.Y : 1;
+  if (largest.X > most || height > most || height + 8 > most / (largest.X + 64))
   {
-    throw std::invalid_argument("a kernel's largest tile has more than 2^40 voxels in a plane");
+    throw std::invalid_argument("a kernel's largest tile has too many voxels in a plane");
   }
   // An infinite product with a threshold of 0 would not be 0. The restored scheme multiplies by 4 times the tension.
   const int    factor = scheme.Limited == Correction::TowardsLinear ? 4 : 1;

@@ -81,6 +81,37 @@ TEST_F(DicomPixelsTest, EverySyntaxGivesTheSame)
   }
 }
 
+TEST_F(DicomPixelsTest, MorePixelsThanTheHeaderTells)
+{
+  const auto withMore = [this](std::size_t count) {
+    WriteThree([&](DicomTestData & slice, int number) {
+      auto values = MakeValues(static_cast<unsigned int>(number));
+      values.resize(values.size() + (number == 1 ? count : 0));
+      slice.SetPixels(values);
+    });
+    return GetRefusal();
+  };
+  EXPECT_EQ(withMore(0), "");
+  EXPECT_EQ(withMore(1), "");
+  EXPECT_TRUE(HasWords(withMore(Columns), { "1", "take 32 bytes", "tells of 24" })) << withMore(Columns);
+  EXPECT_TRUE(HasWords(withMore(Columns * Rows), { "take 48 bytes" }));
+}
+
+TEST_F(DicomPixelsTest, FewerFramesThanTheFileHas)
+{
+  for (const char * const number : { "1", "2", "4" })
+  {
+    DicomTestData file = MakeEnhanced();
+    file.Set(0x00280008, "IS", number);
+    file.Write(m_Folder / "enhanced");
+    EXPECT_TRUE(HasWords(GetRefusal(), { "enhanced", "frames" })) << GetRefusal();
+  }
+  DicomTestData file = MakeEnhanced();
+  file.SetPixels(Expect({ 4, 5, 6, 7 }));
+  file.Write(m_Folder / "enhanced");
+  EXPECT_TRUE(HasWords(GetRefusal(), { "take 96 bytes", "tells of 72" })) << GetRefusal();
+}
+
 TEST_F(DicomPixelsTest, CompressedSlices)
 {
   for (const auto syntax : { gdcm::TransferSyntax::RLELossless, gdcm::TransferSyntax::JPEGLosslessProcess14_1 })

@@ -3,7 +3,11 @@
 #include "TestFolder.h"
 #include "VolumeTestImages.h"
 #include "formats/CreateVolume.h"
+#include "itk/LibraryReason.h"
 
+#include "itkJPEGImageIO.h"
+
+#include <filesystem>
 #include <gtest/gtest.h>
 
 using namespace VolumeTest;
@@ -51,12 +55,16 @@ TEST_P(ItkFormats, PartsAreThoseOfTheWhole)
   const auto        description = MakeUpright({ 9, 7, 5 }, ElementType::Int16);
   const auto        voxels = MakeVoxels(description);
   WriteVolume(path, description, voxels);
-  const auto reader = Open(path);
+  const auto                  reader = Open(path);
+  const itk::Subdivision::Box whole = { { 0, 9 }, { 0, 7 }, { 0, 5 } };
+  EXPECT_EQ(ReadVoxels(*reader, whole), voxels);
+  EXPECT_EQ(ReadVoxels(*reader, whole), voxels);
   const auto plane = static_cast<std::ptrdiff_t>(9 * 7 * 2);
   EXPECT_EQ(ReadVoxels(*reader, { { 0, 9 }, { 0, 7 }, { 1, 2 } }),
             std::vector<char>(voxels.begin() + plane, voxels.begin() + 3 * plane));
   EXPECT_EQ(ReadVoxels(*reader, { { 2, 3 }, { 4, 1 }, { 3, 1 } }),
             std::vector<char>(voxels.begin() + 3 * plane + 4 * 18 + 4, voxels.begin() + 3 * plane + 4 * 18 + 10));
+  EXPECT_EQ(ReadVoxels(*reader, whole), voxels);
 }
 
 INSTANTIATE_TEST_SUITE_P(Endings,
@@ -74,7 +82,11 @@ INSTANTIATE_TEST_SUITE_P(Endings,
                                          ".H5",
                                          ".mrc",
                                          ".MRC",
-                                         ".hdr"));
+                                         ".hdr",
+                                         ".img",
+                                         ".img.gz",
+                                         ".hdf5",
+                                         ".rec"));
 
 TEST(ItkFormatsLimits, WhatIsLostIsSaid)
 {
@@ -108,6 +120,18 @@ TEST(ItkFormatsLimits, WhatCannotBeHeldIsRefusedBeforeAnythingIsComputed)
   EXPECT_NE(getError("a.png", MakeUpright({ 9, 7, 5 }, ElementType::UInt8)), "");
   EXPECT_NE(getError("a.png", MakeUpright({ 9, 7 }, ElementType::Float)), "");
   EXPECT_NE(getError("a.vtk", MakeUpright({ 9, 7, 5, 3 }, ElementType::UInt8)), "");
+  for (const unsigned int components : { 2u, 4u, 5u })
+  {
+    auto description = MakeUpright({ 9, 7 }, ElementType::UInt8);
+    description.NumberOfComponents = components;
+    description.Kind = components == 4 ? VoxelKind::Rgba : VoxelKind::Vector;
+    for (const std::string name : { "a.bmp", "a.jpg", "a.JPEG" })
+    {
+      EXPECT_NE(getError(name, description).find("3 components, not " + std::to_string(components)), std::string::npos);
+    }
+    EXPECT_EQ(getError("a.png", description) == "", components < 5);
+    EXPECT_EQ(getError("a.tif", description), "");
+  }
   EXPECT_TRUE(folder.GetFiles().empty());
 }
 
@@ -131,6 +155,41 @@ TEST(ItkFormatsLimits, VectorsOfNiftiAreReadRight)
   const auto plane = static_cast<std::ptrdiff_t>(9 * 7 * 12);
   EXPECT_EQ(ReadVoxels(*reader, { { 0, 9 }, { 0, 7 }, { 2, 1 } }),
             std::vector<char>(voxels.begin() + 2 * plane, voxels.begin() + 3 * plane));
+}
+
+TEST(ItkFormatsLimits, ReasonsHaveNoPlacesInTheCode)
+{
+  const auto getReason = [](const std::string & text) { return GetReason(std::runtime_error(text), "/a/b.nrrd"); };
+  EXPECT_EQ(
+    getReason("itk::ERROR: NrrdImageIO(0x55e81b31fd40): ReadImageInformation: Error reading /a/b.nrrd:\n[nrrd] "
+              "nrrdLoad: trouble reading \"/a/b.nrrd\"\n[nrrd] _nrrdFormatNRRD_read:\n[nrrd] _nrrdRead: fread got "
+              "only 629"),
+    "fread got only 629");
+  EXPECT_EQ(getReason("ITK ERROR: ImageIO(0x55): Read: nothing there"), "nothing there");
+  EXPECT_EQ(getReason("/a/b.nrrd is not recognized as a NIFTI file"), "it is not recognized as a NIFTI file");
+  EXPECT_EQ(getReason("Unknown component type: itk::CommonEnums::IOComponent::UNKNOWNCOMPONENTTYPE"),
+            "its voxels are of a type that is not supported");
+  EXPECT_EQ(getReason("Unrecognized mode"), "Unrecognized mode");
+}
+
+TEST(ItkFormatsLimits, CmykIsNotTakenForOtherColours)
+{
+  const TestFolder                folder;
+  const std::vector<std::uint8_t> pixels(4 * 16 * 16, 100);
+  std::filesystem::create_directory(folder / "slices");
+  for (const std::string name : { "a.jpg", "slices/a1.jpg", "slices/a2.jpg" })
+  {
+    const auto jpeg = itk::JPEGImageIO::New();
+    jpeg->SetFileName(folder / name);
+    jpeg->SetNumberOfDimensions(2);
+    jpeg->SetDimensions(0, 16);
+    jpeg->SetDimensions(1, 16);
+    jpeg->SetComponentType(itk::IOComponentEnum::UCHAR);
+    jpeg->SetNumberOfComponents(4);
+    jpeg->Write(pixels.data());
+  }
+  EXPECT_NE(GetError([&] { Open(folder / "a.jpg"); }).find("CMYK"), std::string::npos);
+  EXPECT_NE(GetError([&] { Open(folder / "slices"); }).find("a1.jpg: its colours are CMYK"), std::string::npos);
 }
 
 TEST(ItkFormatsLimits, ATruncatedFileIsNoticed)

@@ -77,6 +77,29 @@ TEST_F(SliceFolderTest, TakesNumbersAnywhereAndOfAnySize)
   EXPECT_EQ(this->GetOrder(), (std::vector<std::uint16_t>{ 0, 1, 2 }));
 }
 
+TEST_F(SliceFolderTest, RefusesSlicesThatAreTurnedInDifferentWays)
+{
+  const auto write = [&](const std::string & name, std::uint16_t orientation) {
+    TiffTestFile file;
+    TiffTestPage page;
+    page.Width = 4;
+    page.Height = 2;
+    page.Orientation = orientation;
+    file.AddPage(page, std::vector<std::uint16_t>(8, 1));
+    m_Folder.WriteFile(name, file.GetBytes());
+  };
+  write("a1.tif", 1);
+  write("a2.tif", 0);
+  EXPECT_EQ(this->GetOpeningError(), "");
+  EXPECT_EQ(m_Warnings.GetNumber(), 0u);
+  write("a3.tif", 6);
+  EXPECT_TRUE(Contains(this->GetOpeningError(), "a3.tif asks to be shown in another way (orientation 6)"));
+  write("a1.tif", 6);
+  write("a2.tif", 6);
+  EXPECT_EQ(this->GetOpeningError(), "");
+  EXPECT_TRUE(m_Warnings.Mention("orientation 6"));
+}
+
 TEST_F(SliceFolderTest, TellsOfGaps)
 {
   for (const std::uint16_t number : { 1, 2, 5, 6, 20 })
@@ -93,6 +116,34 @@ TEST_F(SliceFolderTest, RefusesSeveralSeries)
   this->WriteSlice("a_1.tif", 1);
   this->WriteSlice("b_2.tif", 2);
   EXPECT_TRUE(Contains(this->GetOpeningError(), "a_1.tif and b_2.tif"));
+}
+
+TEST_F(SliceFolderTest, LeavesAPreviewWithoutANumberAside)
+{
+  for (const std::uint16_t number : { 0, 1, 2 })
+  {
+    this->WriteSlice("mouse 12_rec000" + std::to_string(number) + ".tif", number);
+  }
+  m_Folder.WriteFile("mouse 12_rec.log", "x");
+  for (const std::string preview : { "mouse 12_rec_spr.tif", "mouse 12_rec_spr.bmp", "a.png", "z.tif" })
+  {
+    m_Folder.WriteFile(preview, "not even a picture");
+    const auto before = m_Warnings.GetNumber();
+    EXPECT_EQ(this->GetOrder(), (std::vector<std::uint16_t>{ 0, 1, 2 })) << preview;
+    EXPECT_EQ(m_Warnings.GetNumber(), before + 1);
+    EXPECT_TRUE(m_Warnings.Mention("the picture " + preview));
+    std::filesystem::remove(m_Folder / preview);
+  }
+  // It may be the first slice, or of another series, or there are several.
+  for (const std::string name : { "mouse 12_rec.tif", "mouse 12_rec.bmp", "rat 7_rec0003.tif" })
+  {
+    m_Folder.WriteFile(name, "x");
+    EXPECT_NE(this->GetOpeningError(), "") << name;
+    std::filesystem::remove(m_Folder / name);
+  }
+  m_Folder.WriteFile("mouse 12_rec_spr.bmp", "x");
+  m_Folder.WriteFile("mouse 12_rec_sag.bmp", "x");
+  EXPECT_TRUE(Contains(this->GetOpeningError(), "several formats"));
 }
 
 TEST_F(SliceFolderTest, RefusesNamesWithTwoNumbers)

@@ -328,6 +328,98 @@ TEST_F(TiffReaderTest, RefusesPagesThatDifferAndSkipsThumbnails)
   EXPECT_TRUE(Contains(this->GetOpeningError(file.GetBytes()), "its page 4 is 5 x 3 int16"));
 }
 
+TEST_F(TiffReaderTest, RefusesPagesThatAreTurnedInDifferentWays)
+{
+  const auto make = [](const std::vector<std::uint16_t> & orientations) {
+    TiffTestFile file;
+    TiffTestPage page;
+    page.Width = 5;
+    page.Height = 3;
+    for (const std::uint16_t orientation : orientations)
+    {
+      page.Orientation = orientation;
+      file.AddPage(page, std::vector<std::uint8_t>(15, 1));
+    }
+    return file.GetBytes();
+  };
+  EXPECT_TRUE(Contains(this->GetOpeningError(make({ 1, 1, 3 })), "its page 3"));
+  EXPECT_TRUE(Contains(this->GetOpeningError(make({ 3, 1 })), "orientation 1"));
+  EXPECT_TRUE(Contains(this->GetOpeningError(make({ 0, 2 })), "orientation 2"));
+  EXPECT_EQ(m_Warnings.GetNumber(), 0u);
+  EXPECT_EQ(this->GetOpeningError(make({ 0, 1, 0 })), ""); // 1 is what a page without it has
+  EXPECT_EQ(m_Warnings.GetNumber(), 0u);
+  EXPECT_EQ(this->GetOpeningError(make({ 3, 0, 3 })), ""); // said once for all
+  EXPECT_TRUE(m_Warnings.Mention("orientation 3"));
+}
+
+TEST_F(TiffReaderTest, JpegOf12BitsIsNotCalledDamaged)
+{
+  TiffTestFile file;
+  TiffTestPage page;
+  page.Width = 8;
+  page.Height = 8;
+  page.Bits = 12;
+  page.Compression = 7;
+  page.Blocks = { std::string(200, 'x') };
+  file.AddPage(page);
+  EXPECT_TRUE(Contains(this->GetOpeningError(file.GetBytes()), "JPEG of 12 bits"));
+}
+
+TEST_F(TiffReaderTest, AResolutionWithoutAUnitSaysNoSpacing)
+{
+  TiffTestPage page;
+  page.Width = 5;
+  page.Height = 3;
+  const auto getSpacing = [&](int pages) {
+    TiffTestFile file;
+    for (int i = 0; i < pages; ++i)
+    {
+      file.AddPage(page, std::vector<std::uint8_t>(15, 1));
+    }
+    return this->Open(file.GetBytes())->GetDescription().Grid.Spacing;
+  };
+  page.PixelsPerNothing = 1;
+  EXPECT_EQ(getSpacing(1), std::vector<double>(2, 1.0));
+  EXPECT_EQ(m_Warnings.GetNumber(), 0u);
+  page.PixelsPerNothing = 72;
+  EXPECT_EQ(getSpacing(1), std::vector<double>(2, 1.0));
+  EXPECT_EQ(m_Warnings.GetNumber(), 1u);
+  EXPECT_EQ(getSpacing(2), std::vector<double>(3, 1.0));
+  EXPECT_TRUE(m_Warnings.Mention("without a unit"));
+  page.Description = "ImageJ=1.53\nimages=1\nunit=micron\n"; // that of the resolution
+  page.PixelsPerNothing = 2;
+  EXPECT_EQ(getSpacing(1), std::vector<double>(2, 0.0005));
+}
+
+TEST_F(TiffReaderTest, TellsOfPagesOfOtherResolutions)
+{
+  TiffTestFile file;
+  TiffTestPage page;
+  page.Width = 5;
+  page.Height = 3;
+  for (const std::uint32_t resolution : { 20, 20, 40 })
+  {
+    page.PixelsPerCentimetre = resolution;
+    file.AddPage(page, std::vector<std::uint8_t>(15, 1));
+  }
+  EXPECT_EQ(this->Open(file.GetBytes())->GetDescription().Grid.Spacing, std::vector<double>(3, 0.5));
+  EXPECT_TRUE(m_Warnings.Mention("other resolutions"));
+}
+
+TEST_F(TiffReaderTest, TurnsEachInvertedPageRoundAndTellsOfIt)
+{
+  TiffTestFile file;
+  TiffTestPage page;
+  page.Width = 2;
+  page.Height = 1;
+  file.AddPage(page, std::vector<std::uint8_t>{ 1, 2 });
+  page.Photometric = 0;
+  file.AddPage(page, std::vector<std::uint8_t>{ 1, 2 });
+  const auto reader = this->Open(file.GetBytes());
+  EXPECT_EQ(ReadAll<std::uint8_t>(*reader), (std::vector<std::uint8_t>{ 1, 2, 254, 253 }));
+  EXPECT_TRUE(m_Warnings.Mention("0 as white"));
+}
+
 TEST_F(TiffReaderTest, RefusesWhatItCannotGiveAsItIs)
 {
   TiffTestPage page;

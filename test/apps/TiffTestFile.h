@@ -43,8 +43,11 @@ struct TiffTestPage
   std::uint32_t              SubfileType = 0;
   std::string                Description;
   std::uint32_t              PixelsPerCentimetre = 0;
-  std::vector<std::uint64_t> ColourTable; // all reds, all greens, all blues
-  std::vector<std::string>   Blocks;      // the strips' or tiles' bytes
+  std::uint32_t              PixelsPerNothing = 0; // a resolution without a unit
+  std::uint16_t              Orientation = 0;      // 0: none is written
+  std::uint16_t              Compression = 1;
+  std::vector<std::uint64_t> ColourTable;          // all reds, all greens, all blues
+  std::vector<std::string>   Blocks;               // the strips' or tiles' bytes
 };
 
 /** A classic or a big TIFF file in either byte order, for machines with the least significant byte first. */
@@ -77,7 +80,7 @@ public:
     this->AddNumbers(entries, 256, 4, { page.Width });
     this->AddNumbers(entries, 257, 4, { page.Height });
     this->AddNumbers(entries, 258, 3, std::vector<std::uint64_t>(page.Samples, page.Bits));
-    this->AddNumbers(entries, 259, 3, { 1 });
+    this->AddNumbers(entries, 259, 3, { page.Compression });
     this->AddNumbers(entries, 262, 3, { page.Photometric });
     this->AddNumbers(entries, 277, 3, { page.Samples });
     this->AddNumbers(entries, 284, 3, { page.IsPlanar ? 2u : 1u });
@@ -98,6 +101,16 @@ public:
       this->AddNumbers(entries, 282, 5, { page.PixelsPerCentimetre, 1 });
       this->AddNumbers(entries, 283, 5, { page.PixelsPerCentimetre, 1 });
       this->AddNumbers(entries, 296, 3, { 3 });
+    }
+    if (page.PixelsPerNothing > 0)
+    {
+      this->AddNumbers(entries, 282, 5, { page.PixelsPerNothing, 1 });
+      this->AddNumbers(entries, 283, 5, { page.PixelsPerNothing, 1 });
+      this->AddNumbers(entries, 296, 3, { 1 });
+    }
+    if (page.Orientation > 0)
+    {
+      this->AddNumbers(entries, 274, 3, { page.Orientation });
     }
     if (!page.ColourTable.empty())
     {

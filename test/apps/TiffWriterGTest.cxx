@@ -170,6 +170,24 @@ TEST_F(TiffWriterTest, ReplacesEarlierOutputAlone)
   writer->Commit();
   EXPECT_EQ(this->Open("out/")->GetDescription().Grid.Size[2], 2u);
 
+  // What systems leave in folders goes on to the next one.
+  for (const std::string name : { ".DS_Store", "Thumbs.db", "desktop.ini", "._out_0000.tif" })
+  {
+    m_Folder.WriteFile("out/" + name, "of " + name);
+  }
+  writer = this->Begin("out/", fewer);
+  writer->Write(Box{ { 0, Width }, { 0, Height }, { 0, 2 } }, voxels.data());
+  m_Folder.WriteFile("out/.DS_Store", "another");
+  writer->Commit();
+  EXPECT_EQ(m_Folder.ReadFile("out/.DS_Store"), "another");
+  EXPECT_EQ(m_Folder.ReadFile("out/Thumbs.db"), "of Thumbs.db");
+  EXPECT_EQ(m_Folder.ReadFile("out/desktop.ini"), "of desktop.ini");
+  EXPECT_EQ(m_Folder.ReadFile("out/._out_0000.tif"), "of ._out_0000.tif");
+  EXPECT_EQ(this->Open("out/")->GetDescription().Grid.Size[2], 2u);
+  std::filesystem::create_directory(m_Folder / "out/._folder");
+  EXPECT_TRUE(Contains(GetError([&] { this->Begin("out/", fewer); }), "._folder"));
+  std::filesystem::remove(m_Folder / "out/._folder");
+
   // A file of other origin stays, whatever its name.
   for (const std::string name : { "notes.txt", "out_0007.tif" })
   {
@@ -223,5 +241,37 @@ TEST_F(TiffWriterTest, KeepsColours)
     const auto reader = this->Open(name);
     EXPECT_EQ(reader->GetDescription().Kind, VoxelKind::Rgba);
     EXPECT_EQ(ReadAll<std::uint8_t>(*reader), voxels);
+  }
+}
+
+// A MetaImage does not say what its components are: programs take three or four for colours, and so does TIFF.
+TEST_F(TiffWriterTest, ThreeOrFourComponentsThatCanBeColoursAre)
+{
+  const auto getKind = [&](ElementType type, unsigned int components) {
+    auto description = MakeDescription(type);
+    description.NumberOfComponents = components;
+    description.Kind = VoxelKind::Vector;
+    const std::vector<std::uint8_t> voxels =
+      MakeVoxels<std::uint8_t>(description.GetNumberOfVoxels() * description.GetVoxelBytes());
+    const auto writer = this->Begin("out.tif", description);
+    writer->Write(Box{ { 0, Width }, { 0, Height }, { 0, Slices } }, voxels.data());
+    writer->Commit();
+    const auto                reader = this->Open("out.tif");
+    std::vector<std::uint8_t> read(voxels.size());
+    reader->Read(GetWholeBox(*reader), read.data());
+    EXPECT_EQ(read, voxels);
+    EXPECT_EQ(reader->GetDescription().Grid.Size, description.Grid.Size);
+    return reader->GetDescription().Kind;
+  };
+  for (const auto type : { ElementType::UInt8, ElementType::UInt16 })
+  {
+    EXPECT_EQ(getKind(type, 2), VoxelKind::Vector);
+    EXPECT_EQ(getKind(type, 3), VoxelKind::Rgb);
+    EXPECT_EQ(getKind(type, 4), VoxelKind::Rgba);
+    EXPECT_EQ(getKind(type, 5), VoxelKind::Vector);
+  }
+  for (const auto type : { ElementType::Int8, ElementType::Int16, ElementType::Float })
+  {
+    EXPECT_EQ(getKind(type, 3), VoxelKind::Vector);
   }
 }

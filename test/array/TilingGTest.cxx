@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <stdexcept>
 
@@ -118,11 +119,21 @@ TEST(Tiling, WhatMakesNoSenseIsRefused)
 TEST(Tiling, HugeSizes)
 {
   constexpr std::uint64_t huge = std::uint64_t{ 1 } << 36;
-  const Tiling            tiling({ huge, huge }, { true, false }, 5, 8);
-  const Box               last = tiling.GetTile(tiling.GetNumberOfTiles() - 1);
-  for (const Interval & interval : last)
+  // As many tiles as 32 bits count, and more.
+  for (const std::uint64_t size : { std::uint64_t{ 3 }, huge })
   {
-    EXPECT_EQ(static_cast<std::uint64_t>(interval.First) + interval.Size, huge);
+    const Sizes sizes{ huge, size };
+    if (size == huge && std::numeric_limits<std::size_t>::digits == 32)
+    {
+      EXPECT_THROW(Tiling(sizes, { true, false }, 5, 8), std::overflow_error);
+      continue;
+    }
+    const Tiling tiling(sizes, { true, false }, 5, 8);
+    const Box    last = tiling.GetTile(tiling.GetNumberOfTiles() - 1);
+    for (std::size_t axis = 0; axis < last.size(); ++axis)
+    {
+      EXPECT_EQ(static_cast<std::uint64_t>(last[axis].First) + last[axis].Size, sizes[axis]);
+    }
   }
   EXPECT_THROW(Tiling({ huge << 26, huge << 26, huge << 26 }, { false, false, false }, 5, 8), std::overflow_error);
 }

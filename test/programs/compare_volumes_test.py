@@ -83,6 +83,13 @@ class CompareVolumes(unittest.TestCase):
 
 
 class Figures(CompareVolumes):
+    def test_names_behind_two_dashes_are_no_options(self):
+        self.write_mha("-a.mha", [2, 2], "h", [1, 2, 3, 4])
+        for arguments in (["--json", "--quantile", "0.9", "--", "-a.mha", "-a.mha"], ["--json", "--", "-a.mha", "-a.mha"]):
+            result = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False, cwd=self.folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(json.loads(result.stdout)["relative_l2_error"], 0)
+
     def test_2d_hand_computed(self):
         reference = self.write_mha("r.mha", [2, 2], "f", [0, 3, 4, 0])
         test = self.write_mha("t.mha", [2, 2], "f", [1, 3, 2, -0.5])
@@ -294,6 +301,36 @@ class Errors(CompareVolumes):
     def test_too_many_dimensions(self):
         image = self.write_mha("r.mha", [1, 1, 1, 1, 2], "f", [0, 1])
         self.assert_fails("5 axes", image, image)
+
+    def test_components_are_compared_one_by_one(self):
+        """The figures are those of all numbers together; total variation is that of each component by itself."""
+        first, second = [0, 30, 40, 0, 7, 9], [255, 3, 9, 1, 1, 2]
+        other = [1, 30, 38, 0, 7, 9]
+        interleaved = lambda a, b: [value for pair in zip(a, b) for value in pair]
+        reference = self.write_mha("r.mha", [3, 2], "B", interleaved(first, second), channels=2)
+        test = self.write_mha("t.mha", [3, 2], "B", interleaved(other, second), channels=2)
+        figures = self.compare(reference, test)
+        self.assertAlmostEqual(figures["psnr_db"], 10 * math.log10(255 ** 2 / (5 / 12)))
+        self.assertAlmostEqual(figures["relative_l2_error"], math.sqrt(5 / sum(v * v for v in first + second)))
+        self.assertEqual((figures["reference_minimum"], figures["reference_maximum"]), (0, 255))
+        self.assertEqual((figures["compared_voxels"], figures["peak"]), (12, 255))
+        turned = self.write_mha("turned.mha", [2, 3], "B", interleaved(other, second), channels=2)
+        self.assert_fails("region", reference, turned)
+        single = [self.compare(self.write_mha(f"r{i}.mha", [3, 2], "B", a), self.write_mha(f"t{i}.mha", [3, 2], "B", b))
+                  for i, (a, b) in enumerate(((first, other), (second, second)))]
+        for key in ("reference_total_variation", "test_total_variation"):
+            self.assertAlmostEqual(figures[key], sum(each[key] for each in single))
+        self.assertAlmostEqual(figures["relative_total_variation"],
+                               figures["test_total_variation"] / figures["reference_total_variation"])
+
+    def test_equal_constant_images_need_no_peak(self):
+        for value in (0, 7):
+            constant = self.write_mha("c.mha", [2, 2], "f", [value] * 3 + [NAN])
+            figures = self.compare(constant, constant)
+            self.assertEqual((figures["psnr_db"], figures["relative_l2_error"], figures["median_relative_error"]), (None, 0, 0))
+            self.assertEqual((figures["peak"], figures["compared_voxels"], figures["excluded_voxels"]), (0, 3, 1))
+            self.assertIn("PSNR: inf dB", self.run_program(constant, constant).stdout)
+        self.assert_fails("constant", constant, self.write_mha("d.mha", [2, 2], "f", [8] * 4))
 
     def test_images_without_figures(self):
         constant = self.write_mha("c.mha", [2, 2], "f", [7] * 4)

@@ -44,6 +44,33 @@ class Errors(ProgramTest):
         for value in ("nan", "inf", "-inf"):
             self.assert_fails(self.run_program(*files, f"--boundary={value}"), 1, value)
 
+    def test_an_empty_tension_is_not_0(self):
+        write_meta(self.path("in.mha"), [6, 5, 4], "f", noise(120))
+        self.assert_fails(self.run_program("--scheme", "restored", "--tension", "", self.path("in.mha"),
+                                           self.path("out.mha")), 2, "--tension: a number is missing")
+
+    def test_an_unknown_option_alone_is_named(self):
+        files = [self.path("in.mha"), self.path("out.mha")]
+        for arguments, message in ((["--shceme", "linear"], "unknown argument: --shceme; is --scheme meant?"),
+                                   (["--Tension=3"], "unknown argument: --Tension=3; is --tension meant?"),
+                                   (["--frobnicate"], "unknown argument: --frobnicate (see --help)"),
+                                   (["-q"], "unknown argument: -q (see --help)")):
+            result = self.run_program(*arguments, *files)
+            self.assert_fails(result, 2, message)
+            self.assertNotIn("out.mha", result.stderr)
+        self.assert_fails(self.run_program(*files, "--", "--quiet"), 2, "unknown argument: ./--quiet")
+
+    def test_names_behind_two_dashes_are_no_options(self):
+        write_meta(self.path("-in.mha"), [6, 5, 4], "h", noise(120))
+        write_meta(self.path("in.mha"), [6, 5, 4], "h", noise(120))
+        self.subdivide("in.mha", "truth.mha")
+        for arguments in (["--", "-in.mha"], ["in.mha", "--"], ["--axes", "xyz", "--", "-in.mha"], ["--quiet", "--", "in.mha"]):
+            result = self.run_program(*arguments, "--quiet.mha", cwd=self.folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(self.path("--quiet.mha"), "rb") as output, open(self.path("truth.mha"), "rb") as truth:
+                self.assertEqual(output.read(), truth.read(), arguments)
+            os.remove(self.path("--quiet.mha"))
+
     def test_options_that_do_not_fit_the_image(self):
         write_meta(self.path("in.mha"), [6, 5], "B", noise(30, 0, 256))
         files = [self.path("in.mha"), self.path("out.mha")]
@@ -54,11 +81,34 @@ class Errors(ProgramTest):
     def test_files_that_cannot_be_read(self):
         out = self.path("out.mha")
         self.assert_fails(self.run_program(self.path("none.mha"), out), 1, "none.mha", "No such file")
-        self.assert_fails(self.run_program(self.folder, out), 1, "DICOM")
+        self.assert_fails(self.run_program(self.folder, out), 1, "no DICOM series with images, and no slices")
         for name, content in (("empty.mha", b""), ("text.txt", b"hello"), ("a.nrrd", b"hello"), ("a.png", b"hello")):
             with open(self.path(name), "wb") as file:
                 file.write(content)
             self.assert_fails(self.run_program(self.path(name), out), 1, name)
+
+    def test_damaged_hdf5_is_the_input(self):
+        write_meta(self.path("in.mha"), [6, 5, 4], "h", noise(120))
+        self.subdivide("in.mha", "in.h5", "--axes", "x")
+        with open(self.path("in.h5"), "rb") as file:
+            whole = file.read()
+        source = random.Random(7)
+        refused = 0
+        for _ in range(40):
+            place = source.randrange(len(whole) - 40)
+            with open(self.path("in.h5"), "wb") as file:
+                file.write(whole[:place] + source.randbytes(40) + whole[place + 40:])
+            result = self.run_program(self.path("in.h5"), self.path("out.mha"), "--quiet")
+            if result.returncode != 0:
+                self.assert_fails(result, 1, "cannot read " + self.path("in.h5"))
+                refused += 1
+            elif os.path.exists(self.path("out.mha")):
+                os.remove(self.path("out.mha"))
+        self.assertGreater(refused, 5)
+        with open(self.path("in.h5"), "wb") as file:
+            file.write(whole[:8] + bytes(1000))
+        self.assert_fails(self.run_program(self.path("in.h5"), self.path("out.mha")), 1,
+                          "it is an HDF5 file that holds no image as ITK writes it")
 
     def test_images_that_cannot_be(self):
         out = self.path("out.mha")

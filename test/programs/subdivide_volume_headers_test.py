@@ -131,6 +131,16 @@ class Headers(ProgramTest):
         self.write_bmp("in.bmp", lambda i: (i, 0, 255 - i))
         self.assertEqual(self.read("in.bmp").fields["ElementNumberOfChannels"], "3")
 
+    def test_bitmaps_of_32_bits_are_refused(self):
+        os.mkdir(self.path("slices"))
+        header = struct.pack("<2sIHHI", b"BM", 54 + 4 * 48, 0, 0, 54)
+        header += struct.pack("<IiiHHIIiiII", 40, 8, 6, 1, 32, 0, 4 * 48, 2835, 2835, 0, 0)
+        for name in ("in.bmp", "slices/a1.bmp", "slices/a2.bmp"):
+            with open(self.path(name), "wb") as file:
+                file.write(header + bytes(range(192)))
+        self.refuse("in.bmp", "32 bits")
+        self.refuse("slices", "a1.bmp", "32 bits")
+
     def test_damaged_pictures_are_told(self):
         write_meta(self.path("flat.mha"), [200, 150], "B", noise(30000, 0, 256))
         for ending in ("png", "jpg"):

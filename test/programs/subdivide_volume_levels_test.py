@@ -5,12 +5,13 @@
 import filecmp
 import os
 import random
+import re
 import subprocess
 import sys
 import unittest
 
 from subdivide_volume_case import PROGRAM, ProgramTest, noise, skip_under_sanitizers
-from subdivide_volume_files import OPTION_TYPES, meta_header, write_meta
+from subdivide_volume_files import OPTION_TYPES, meta_header, write_meta, write_nifti
 
 SCHEMES = ("nonoscillatory", "linear", "bounded", "bspline", "restored")
 
@@ -101,6 +102,33 @@ class Levels(ProgramTest):
         self.assertGreater(peaks[0], budget, "the image is too small for this test")
         self.assertLess(peaks[1], budget)
         self.assertTrue(filecmp.cmp(self.path("whole.mha"), self.path("pieces.mha"), shallow=False))
+
+    def test_nifti_is_not_held_in_memory(self):
+        """It takes as little as a MetaImage of the same voxels."""
+        with open(PROGRAM, "rb") as file:
+            if re.search(b"__(asan|tsan)_init", file.read()):
+                self.skipTest("sanitizers take memory of their own")
+        size = [200, 200, 400]
+        voxels = random.Random(1).randbytes(2 * 200 * 200 * 400)
+        with open(self.path("in.mha"), "wb") as file:
+            file.write(meta_header(size, "h") + voxels)
+        write_nifti(self.path("in.nii"), size, [])
+        with open(self.path("in.nii"), "ab") as file:
+            file.write(voxels)
+        with open(self.path("in.nii"), "rb") as file, open(self.path("pair.hdr"), "wb") as header:
+            header.write(file.read(344) + b"ni1\0")
+        os.symlink(self.path("in.nii"), self.path("pair.img"))
+        code = ("import resource, subprocess, sys; code = subprocess.run(sys.argv[1:]).returncode; "
+                "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss); sys.exit(code)")
+        peaks = {}
+        for name in ("in.mha", "in.nii", "pair.hdr"):
+            command = [PROGRAM, self.path(name), self.path(name + ".mha"), "--axes", "z", "--threads", "2", "--memory",
+                       "120M", "--quiet"]
+            measured = subprocess.run([sys.executable, "-c", code, *command], capture_output=True, text=True, check=True)
+            peaks[name] = 1024 * int(measured.stdout)
+            self.assertTrue(filecmp.cmp(self.path("in.mha.mha"), self.path(name + ".mha"), shallow=False), name)
+        for name, peak in peaks.items():
+            self.assertLess(peak, peaks["in.mha"] + len(voxels) // 4, name)
 
     def test_other_numbers_are_refused(self):
         write_meta(self.path("in.mha"), [6, 5], "h", noise(30))

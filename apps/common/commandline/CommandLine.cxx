@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 
 namespace
 {
@@ -78,6 +79,108 @@ AddParsed(CLI::App &          app,
       description)
     ->type_name(type);
 }
+/** The arguments in reverse, as CLI11 takes them. A name behind "--" that begins with '-' is written so that CLI11,
+ * which does not always see that mark, takes it for no option. */
+std::vector<std::string>
+GetArguments(int argc, char * argv[])
+{
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  auto                     name = std::find(arguments.begin(), arguments.end(), "--");
+  for (; name != arguments.end(); ++name)
+  {
+    if (*name != "--" && name->front() == '-')
+    {
+      name->insert(0, "./");
+    }
+  }
+  std::reverse(arguments.begin(), arguments.end());
+  return arguments;
+}
+
+/** How many letters to insert, to leave out or to change, or pairs of neighbours to swap, make one word of another. */
+std::size_t
+CountTypos(const std::string & a, const std::string & b)
+{
+  std::vector<std::vector<std::size_t>> counts(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i)
+  {
+    for (std::size_t j = 0; j <= b.size(); ++j)
+    {
+      std::size_t & count = counts[i][j];
+      count =
+        i == 0 || j == 0
+          ? i + j
+          : std::min(
+              { counts[i - 1][j] + 1, counts[i][j - 1] + 1, counts[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1) });
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+      {
+        count = std::min(count, counts[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return counts[a.size()][b.size()];
+}
+
+/** What an unknown option may mean, to say so; empty where nothing is near. */
+std::string
+GuessOption(const CLI::App & app, const std::string & unknown)
+{
+  constexpr std::size_t mostTypos = 2;
+  const std::string     word = unknown.substr(0, unknown.find('='));
+  std::size_t           least = mostTypos + 1;
+  std::string           nearest;
+  for (const CLI::Option * const option : app.get_options())
+  {
+    for (const std::string & name : option->get_lnames())
+    {
+      const std::size_t typos = CountTypos(word, "--" + name);
+      if (typos < least)
+      {
+        least = typos;
+        nearest = "; is --" + name + " meant?";
+      }
+    }
+  }
+  return nearest;
+}
+
+/** An unknown option makes its value, too, take the place of a file: where there is one, options alone are named. */
+void
+CheckNothingIsLeft(const CLI::App & app)
+{
+  std::vector<std::string> unknown = app.remaining();
+  const auto               mark = std::find(unknown.begin(), unknown.end(), "--");
+  if (mark != unknown.end())
+  {
+    unknown.erase(mark);
+  }
+  std::vector<std::string> options;
+  std::copy_if(unknown.begin(), unknown.end(), std::back_inserter(options), [](const std::string & word) {
+    return word.size() > 1 && word.front() == '-';
+  });
+  const std::vector<std::string> & named = options.empty() ? unknown : options;
+  if (!named.empty())
+  {
+    throw UsageError((named.size() > 1 ? "unknown arguments: " : "unknown argument: ") + CLI::detail::join(named, " ") +
+                     (options.size() == 1 ? GuessOption(app, options.front()) : ""));
+  }
+}
+
+/** CLI11 takes an empty text, such as that of a variable that was not set, for 0. */
+void
+CheckNumbers(const CLI::App & app)
+{
+  for (const CLI::Option * const option : app.get_options())
+  {
+    const std::string type = option->get_type_name();
+    const bool        isNumber = type.rfind("FLOAT", 0) == 0 || type.rfind("INT", 0) == 0 || type.rfind("UINT", 0) == 0;
+    const auto &      values = option->results();
+    if (isNumber && std::find(values.begin(), values.end(), "") != values.end())
+    {
+      throw UsageError(option->get_name() + ": a number is missing");
+    }
+  }
+}
 } // namespace
 
 std::optional<int>
@@ -86,7 +189,7 @@ ParseArguments(CLI::App & app, int argc, char * argv[])
   app.allow_extras(); // CLI11 names those that are left over from the last to the first
   try
   {
-    app.parse(argc, argv);
+    app.parse(GetArguments(argc, argv));
   }
   catch (const CLI::ParseError & error)
   {
@@ -96,12 +199,8 @@ ParseArguments(CLI::App & app, int argc, char * argv[])
     }
     throw UsageError(error.what());
   }
-  const std::vector<std::string> unknown = app.remaining();
-  if (!unknown.empty())
-  {
-    throw UsageError((unknown.size() > 1 ? "unknown arguments: " : "unknown argument: ") +
-                     CLI::detail::join(unknown, " "));
-  }
+  CheckNothingIsLeft(app);
+  CheckNumbers(app);
   return std::nullopt;
 }
 

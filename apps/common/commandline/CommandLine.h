@@ -26,7 +26,8 @@ struct UsageError : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-/** Reads the command line. Returns an exit code if the program has nothing left to do (--help, --version).
+/** Reads the command line, in which all that follows "--" are names of files. Returns an exit code if the program has
+ * nothing left to do (--help, --version).
  * \throw UsageError; arguments that the program does not know are named in their order */
 std::optional<int>
 ParseArguments(CLI::App & app, int argc, char * argv[]);

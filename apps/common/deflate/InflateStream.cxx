@@ -11,6 +11,12 @@ InflateStream::InflateStream(const FileSection & section)
 {}
 
 void
+InflateStream::FailOfDamage() const
+{
+  throw std::runtime_error("cannot read " + m_Section.Path + ": its compressed data is truncated or damaged");
+}
+
+void
 InflateStream::Restart()
 {
   m_Inflater.reset();
@@ -74,7 +80,7 @@ InflateStream::ReadAt(std::uint64_t offset, void * bytes, std::uint64_t count)
   }
   if (!isThere || this->ReadOn(static_cast<char *>(bytes), count) != count)
   {
-    throw std::runtime_error("cannot read " + m_Section.Path + ": its compressed data is truncated or damaged");
+    this->FailOfDamage();
   }
 }
 
@@ -89,6 +95,21 @@ InflateStream::CheckEnd()
   }
   if (m_IsDamaged || m_Inflater != nullptr)
   {
-    throw std::runtime_error("cannot read " + m_Section.Path + ": its compressed data is truncated or damaged");
+    this->FailOfDamage();
   }
+}
+
+std::uint64_t
+InflateStream::Measure()
+{
+  this->Restart();
+  std::vector<char> bytes(1 << 18);
+  while (this->ReadOn(bytes.data(), bytes.size()) == bytes.size())
+  {
+  }
+  if (m_IsDamaged || m_Inflater != nullptr)
+  {
+    this->FailOfDamage();
+  }
+  return m_Position;
 }

@@ -28,7 +28,14 @@ public:
   void
   CheckEnd();
 
+  /** Decompresses all, and counts the bytes.
+   * \throw std::runtime_error if the stream is damaged or breaks off */
+  std::uint64_t
+  Measure();
+
 private:
+  [[noreturn]] void
+  FailOfDamage() const;
   void
   Restart();
   std::uint64_t

@@ -266,7 +266,12 @@ ReadFrames(const gdcm::DataSet & data, DicomHeader & header)
   }
   header.Frames.assign(static_cast<std::size_t>(number), common);
   const std::vector<gdcm::DataSet> groups = GetDicomItems(data, Tag(0x5200, 0x9230));
-  for (std::size_t i = 0; i < header.Frames.size() && i < groups.size(); ++i)
+  if (!groups.empty() && groups.size() != header.Frames.size())
+  {
+    throw std::runtime_error("it has " + std::to_string(header.Frames.size()) + " frames, but tells of " +
+                             std::to_string(groups.size()) + " what they are");
+  }
+  for (std::size_t i = 0; i < groups.size(); ++i)
   {
     ReadFunctionalGroups(groups[i], header, header.Frames[i]);
   }

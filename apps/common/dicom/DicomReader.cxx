@@ -28,6 +28,14 @@ CheckPixmap(const DicomHeader & header, const gdcm::Pixmap & pixmap, std::size_t
   {
     Fail(header, "the DICOM file is truncated");
   }
+  // Writers pad to an even number of bytes, and some a little further.
+  const std::size_t rowBytes = header.GetFrameBytes() / header.Rows;
+  if (plain != nullptr && plain->GetLength() >= bytes + rowBytes)
+  {
+    Fail(header,
+         "its pixels take " + std::to_string(plain->GetLength()) + " bytes, but its header tells of " +
+           std::to_string(bytes) + "; the size or the number of frames in the header is wrong");
+  }
   if (pixmap.GetBufferLength() != bytes || pixmap.GetPixelFormat().GetBitsAllocated() != header.BitsAllocated)
   {
     Fail(header, "its pixels are not of the type or number that its header tells");
@@ -118,6 +126,17 @@ DicomReader::DicomReader(std::string path, DicomSeries series, const InputOption
   m_Description.Kind = first.Samples == 3 ? VoxelKind::Rgb : VoxelKind::Scalar;
   m_Description.Format = "DICOM";
   m_Description.Metadata = ReadDicomMetadata(first.FileName);
+}
+
+std::vector<std::string>
+DicomReader::GetFiles() const
+{
+  std::vector<std::string> files;
+  for (const DicomHeader & header : m_Series.Headers)
+  {
+    files.push_back(header.FileName.string());
+  }
+  return files;
 }
 
 bool

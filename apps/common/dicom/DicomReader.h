@@ -12,6 +12,9 @@ public:
   /** \throw std::runtime_error if the slices make no regular volume */
   DicomReader(std::string path, DicomSeries series, const InputOptions & options, const WarningSink & warn);
 
+  std::vector<std::string>
+  GetFiles() const override;
+
   bool
   ReadsParts() const override;
 

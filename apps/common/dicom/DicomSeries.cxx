@@ -103,7 +103,8 @@ ChooseDicomSeries(const std::string & path, std::vector<DicomSeries> all, const 
   const std::string start = "cannot read " + path + ": ";
   if (all.empty())
   {
-    throw std::runtime_error(start + "it holds no DICOM series with images");
+    throw std::runtime_error(start + "it holds no DICOM series with images, and no slices as TIFF, PNG, BMP or JPEG; a "
+                                     "volume in one file is given by its own name");
   }
   if (wanted.empty())
   {

@@ -4,6 +4,7 @@
 #include "itk/ItkWriter.h"
 #include "nifti/NiftiFiles.h"
 #include "nifti/NiftiHeader.h"
+#include "nifti/NiftiReader.h"
 #include "plain/PlainReader.h"
 #include "plain/PlainWriter.h"
 #include "text/HeaderText.h"
@@ -14,18 +15,30 @@
 
 namespace
 {
-/** Opens a file by its own reader where that understands all of it, else by ITK's. */
-template <std::unique_ptr<VolumeReader> (*VOpen)(const std::string &)>
 std::unique_ptr<VolumeReader>
-OpenPlain(const std::string & path, const InputOptions & options, const WarningSink & warn)
+OpenMeta(const std::string & path, const InputOptions &, const WarningSink &)
+{
+  return OpenMetaImage(path);
+}
+
+/** By the own reader where that understands all of the header, else by ITK's. */
+std::unique_ptr<VolumeReader>
+OpenAnyNrrd(const std::string & path, const InputOptions & options, const WarningSink & warn)
 {
   try
   {
-    return VOpen(path);
+    return OpenNrrd(path);
   }
   catch (const HeaderNotUnderstood &)
   {
-    return OpenByItk(path, options, warn);
+    const std::uint64_t      bytes = CheckNrrdNumbers(path);
+    auto                     reader = OpenByItk(path, options, warn);
+    const ImageDescription & description = reader->GetDescription();
+    if (description.GetNumberOfVoxels() * description.GetVoxelBytes() != bytes)
+    {
+      FailToRead(path, "a part of its voxels' components would be left out; save them as a vector");
+    }
+    return reader;
   }
 }
 
@@ -33,13 +46,21 @@ std::unique_ptr<VolumeReader>
 OpenNifti(const std::string & path, const InputOptions & options, const WarningSink & warn)
 {
   auto              reader = OpenByItk(path, options, warn);
-  const NiftiHeader header(IsNiftiPair(path) ? FindNiftiPair(path).Header : path);
+  const NiftiPair   files = IsNiftiPair(path) ? FindNiftiPair(path) : NiftiPair{ path, path };
+  const NiftiHeader header(files.Header);
   if (header.IsPlacedTwice())
   {
     warn(path + " has two placements that differ, a qform and a sform: the " +
          header.GetPlacement(reader->GetDescription().Grid) + " is taken");
   }
-  return reader;
+  auto plain = OpenPlainNifti(header, files, reader->GetDescription());
+  if (plain == nullptr && header.GetRescaling() && reader->GetDescription().NumberOfComponents > 1)
+  {
+    FailToRead(path,
+               "its voxels have several components and a slope, which are read right where they are vectors in an "
+               "uncompressed file; uncompress it, or apply the slope and set scl_slope to 1");
+  }
+  return plain != nullptr ? std::move(plain) : std::move(reader);
 }
 
 template <typename TWriter>
@@ -54,8 +75,8 @@ const std::vector<VolumeFormat> &
 GetVolumeFormats()
 {
   static const std::vector<VolumeFormat> formats = {
-    { "MetaImage", { ".mha", ".mhd" }, OpenPlain<OpenMetaImage>, Create<PlainWriter>, true, true, true },
-    { "NRRD", { ".nrrd", ".nhdr" }, OpenPlain<OpenNrrd>, Create<PlainWriter>, true, true, true },
+    { "MetaImage", { ".mha", ".mhd" }, OpenMeta, Create<PlainWriter>, true, true, true },
+    { "NRRD", { ".nrrd", ".nhdr" }, OpenAnyNrrd, Create<PlainWriter>, true, true, true },
     { "NIfTI", { ".nii", ".nii.gz", ".hdr", ".img", ".img.gz" }, OpenNifti, Create<ItkWriter>, true, false, true },
     { "VTK", { ".vtk" }, OpenByItk, Create<ItkWriter>, true, false, false },
     { "HDF5", { ".h5", ".hdf5", ".hdf", ".he5" }, OpenByItk, Create<ItkWriter>, true, false, true },

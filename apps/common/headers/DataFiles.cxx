@@ -67,14 +67,27 @@ FindStream(const InputFile & file, std::uint64_t start, const DataFiles & files)
   }
   return { file.GetPath(), start, files.CompressedSize > 0 ? files.CompressedSize : available };
 }
+/** Whatever is in the file from there on. */
+FileSection
+FindText(const InputFile & file, std::uint64_t start, std::int64_t byteSkip)
+{
+  const std::uint64_t available = file.GetSize() - start;
+  if (byteSkip < 0 || static_cast<std::uint64_t>(byteSkip) > available)
+  {
+    FailToRead(file.GetPath(), "its header says that " + std::to_string(byteSkip) + " bytes come before the text");
+  }
+  const auto skip = static_cast<std::uint64_t>(byteSkip);
+  return { file.GetPath(), start + skip, available - skip };
+}
 } // namespace
 
 void
 LocateData(const std::string & path, const DataFiles & files, PlainLayout & layout)
 {
   const std::uint64_t bytes = layout.Description.GetNumberOfVoxels() * layout.Description.GetVoxelBytes();
+  const bool          isCompressed = layout.Encoding == PlainEncoding::Compressed;
   const std::size_t   count = files.Names.empty() ? 1 : files.Names.size();
-  if (bytes % count != 0 || (count > 1 && layout.IsCompressed))
+  if (bytes % count != 0)
   {
     FailToRead(path, "its voxels cannot be spread over " + std::to_string(count) + " data files like that");
   }
@@ -84,7 +97,9 @@ LocateData(const std::string & path, const DataFiles & files, PlainLayout & layo
     const std::string   name = isOwn ? path : (std::filesystem::path(path).parent_path() / files.Names[i]).string();
     const InputFile     file(name);
     const std::uint64_t start = SkipLines(file, isOwn ? files.HeaderEnd : 0, files.LineSkip);
-    layout.Sections.push_back(layout.IsCompressed ? FindStream(file, start, files)
-                                                  : FindRawVoxels(file, start, files.ByteSkip, bytes / count));
+    layout.Sections.push_back(isCompressed ? FindStream(file, start, files)
+                              : layout.Encoding == PlainEncoding::Raw
+                                ? FindRawVoxels(file, start, files.ByteSkip, bytes / count)
+                                : FindText(file, start, files.ByteSkip));
   }
 }

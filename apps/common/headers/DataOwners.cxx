@@ -106,6 +106,31 @@ ReadDataName(const fs::path & header)
   return name.rfind("./", 0) == 0 ? name.substr(2) : name;
 }
 
+std::vector<std::string>
+ListDataFiles(const std::string & header)
+{
+  std::vector<std::string> names = ReadDataLines(header);
+  if (names.empty() || ToLower(names.front()) == "local")
+  {
+    return {};
+  }
+  const std::vector<std::string> words = SplitWords(names.front());
+  if (names.front().rfind("LIST", 0) == 0)
+  {
+    names.erase(names.begin());
+  }
+  else if (words.size() >= 3 && words[0].find('%') != std::string::npos)
+  {
+    const auto parse = [&](std::size_t i) { return ParseInteger(header, "data file", words[i]); };
+    names = ExpandPattern(header, words[0], parse(1), parse(2), words.size() > 3 ? parse(3) : 1);
+  }
+  for (std::string & name : names)
+  {
+    name = (fs::path(header).parent_path() / name).string();
+  }
+  return names;
+}
+
 std::optional<fs::path>
 FindOtherOwner(const fs::path & data, const fs::path & header)
 {

@@ -9,13 +9,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace
 {
 using itk::Subdivision::ElementType;
 
-// MET_LONG and MET_ULONG have four or eight bytes, depending on who wrote them.
+// MET_LONG and MET_ULONG have four or eight bytes, depending on who wrote them: see LocateLongs().
 constexpr std::array<std::pair<const char *, ElementType>, 10> Types = { {
   { "MET_UCHAR", ElementType::UInt8 },
   { "MET_CHAR", ElementType::Int8 },
@@ -38,10 +39,6 @@ GetType(const std::string & path, const std::string & name)
     {
       return type;
     }
-  }
-  if (name == "MET_LONG" || name == "MET_ULONG")
-  {
-    throw HeaderNotUnderstood("an element type whose size depends on who wrote it");
   }
   FailToRead(path, "voxels of the type '" + name + "' are not supported");
 }
@@ -156,6 +153,44 @@ FindDataFiles(const InputFile & file, const MetaFields & fields, const ImageGrid
   return { value };
 }
 
+/** LocateData() for integers that have eight bytes, as the layout's type, or four: the length of the data tells. */
+void
+LocateLongs(const std::string & path, DataFiles files, const StreamMeasure measure, PlainLayout & layout)
+{
+  ElementType &     type = layout.Description.Component;
+  const ElementType four = type == ElementType::UInt64 ? ElementType::UInt32 : ElementType::Int32;
+  if (layout.Encoding == PlainEncoding::Raw)
+  {
+    PlainLayout other = layout;
+    other.Description.Component = four;
+    files.ByteSkip = std::max<std::int64_t>(files.ByteSkip, 0); // the voxels cannot be told from what is to be skipped
+    try
+    {
+      LocateData(path, files, other);
+      layout = other;
+      return;
+    }
+    catch (const std::runtime_error &)
+    {
+      LocateData(path, files, layout);
+      return;
+    }
+  }
+  LocateData(path, files, layout);
+  if (layout.Encoding == PlainEncoding::Compressed)
+  {
+    const std::uint64_t count = layout.Description.GetNumberOfVoxels() * layout.Description.NumberOfComponents;
+    const std::uint64_t bytes = measure == nullptr ? 0 : measure(layout.Sections.front());
+    if (bytes != 4 * count && bytes != 8 * count)
+    {
+      FailToRead(layout.Sections.front().Path,
+                 "its compressed data holds " + std::to_string(bytes) + " bytes, neither four nor eight for each of " +
+                   std::to_string(count) + " numbers of the type MET_LONG or MET_ULONG");
+    }
+    type = bytes == 4 * count ? four : type;
+  }
+}
+
 VoxelKind
 GetKind(unsigned int components)
 {
@@ -164,7 +199,7 @@ GetKind(unsigned int components)
 } // namespace
 
 PlainLayout
-ReadMetaHeader(const std::string & path)
+ReadMetaHeader(const std::string & path, const StreamMeasure measure)
 {
   const InputFile  file(path);
   const MetaFields fields(file);
@@ -184,11 +219,9 @@ ReadMetaHeader(const std::string & path)
   }
   description.NumberOfComponents = static_cast<unsigned int>(components);
   description.Kind = GetKind(description.NumberOfComponents);
-  if (!fields.GetFlag({ "BinaryData" }, true))
-  {
-    throw HeaderNotUnderstood("voxels as text");
-  }
-  description.Component = GetType(path, fields.Get("ElementType"));
+  const std::string type = fields.Get("ElementType");
+  const bool        isLong = type == "MET_LONG" || type == "MET_ULONG";
+  description.Component = GetType(path, isLong ? type + "_LONG" : type);
   CheckDescription(path, description);
   for (const auto & [key, value] : fields.GetAll())
   {
@@ -198,12 +231,18 @@ ReadMetaHeader(const std::string & path)
     }
   }
 
-  layout.IsCompressed = fields.GetFlag({ "CompressedData" }, false);
+  const bool isText = !fields.GetFlag({ "BinaryData" }, true);
+  const bool isCompressed = fields.GetFlag({ "CompressedData" }, false);
+  if (isText && isCompressed)
+  {
+    FailToRead(path, "its header says that its voxels are compressed text, which is not supported");
+  }
+  layout.Encoding = isText ? PlainEncoding::Text : isCompressed ? PlainEncoding::Compressed : PlainEncoding::Raw;
   layout.IsBigEndian = fields.GetFlag({ "BinaryDataByteOrderMSB", "ElementByteOrderMSB" }, false);
   DataFiles files;
   files.HeaderEnd = fields.End;
   files.ByteSkip = ParseInteger(path, "HeaderSize", fields.Find({ "HeaderSize" }).value_or("0"));
-  files.ByteSkip = layout.IsCompressed ? 0 : std::max<std::int64_t>(files.ByteSkip, -1);
+  files.ByteSkip = isCompressed ? 0 : std::max<std::int64_t>(files.ByteSkip, -1);
   const std::int64_t compressed =
     ParseInteger(path, "CompressedDataSize", fields.Find({ "CompressedDataSize" }).value_or("0"));
   files.CompressedSize = static_cast<std::uint64_t>(std::max<std::int64_t>(compressed, 0));
@@ -211,7 +250,12 @@ ReadMetaHeader(const std::string & path)
   {
     files.Names = FindDataFiles(file, fields, description.Grid);
   }
-  LocateData(path, files, layout);
+  if (files.Names.size() > 1 && isCompressed)
+  {
+    FailToRead(
+      path, "its voxels are compressed in " + std::to_string(files.Names.size()) + " files, of which one is supported");
+  }
+  isLong ? LocateLongs(path, files, measure, layout) : LocateData(path, files, layout);
   return layout;
 }
 

@@ -7,11 +7,15 @@
 
 #include <string>
 
+/** The number of bytes in a compressed stream.
+ * \throw std::runtime_error if it is damaged */
+using StreamMeasure = std::uint64_t (*)(const FileSection &);
+
 /** Reads the header of a MetaImage (.mha, .mhd) and finds its voxels.
- * \throw HeaderNotUnderstood if the image is none of those whose voxels simply stand in files
+ * \param measure tells whether compressed MET_LONG and MET_ULONG have four bytes or eight
  * \throw std::runtime_error if the header or the files are not right */
 PlainLayout
-ReadMetaHeader(const std::string & path);
+ReadMetaHeader(const std::string & path, StreamMeasure measure = nullptr);
 
 /** A header up to the name of the data file, that name included. With compressed voxels, FillInCompressedSize()
  * completes it.

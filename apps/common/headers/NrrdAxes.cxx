@@ -162,6 +162,12 @@ NrrdAxes::FindComponents(ImageDescription & description) const
   {
     const std::string kind = ToLower(m_Kinds[axis]);
     const auto        found = componentKinds.find(kind);
+    if (kind.find("masked") != std::string::npos)
+    {
+      FailToRead(m_Path,
+                 "its voxels are of the kind " + m_Kinds[axis] +
+                   ", of which the mask cannot be kept; save them as a vector, or without the mask");
+    }
     const bool isDomain = kind == "domain" || kind == "space" || kind == "time" || kind == "none" || kind == "???";
     if (!isDomain && (axis > 0 || found == componentKinds.end()))
     {

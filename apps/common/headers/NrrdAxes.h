@@ -20,6 +20,12 @@ public:
   void
   Describe(ImageDescription & description) const;
 
+  const std::vector<std::uint64_t> &
+  GetSizes() const
+  {
+    return m_Sizes;
+  }
+
 private:
   /** Whether the first axis is of a voxel's components, and what they mean. */
   bool

@@ -54,6 +54,22 @@ const std::map<std::string, ElementType> Types = {
   { "double", ElementType::Double },
 };
 
+PlainEncoding
+GetEncoding(const std::string & path, const std::string & name)
+{
+  static const std::map<std::string, PlainEncoding> encodings = {
+    { "raw", PlainEncoding::Raw },    { "gz", PlainEncoding::Compressed }, { "gzip", PlainEncoding::Compressed },
+    { "ascii", PlainEncoding::Text }, { "text", PlainEncoding::Text },     { "txt", PlainEncoding::Text },
+    { "hex", PlainEncoding::Hex },
+  };
+  const auto found = encodings.find(name);
+  if (found == encodings.end())
+  {
+    FailToRead(path, "its encoding " + name + " is not supported; raw, gzip, ascii and hex are");
+  }
+  return found->second;
+}
+
 std::vector<std::string>
 FindDataFiles(const std::string & path, const NrrdFields & fields)
 {
@@ -64,10 +80,7 @@ FindDataFiles(const std::string & path, const NrrdFields & fields)
     return {};
   }
   const bool isPattern = words.size() >= 4 && words[0].find('%') != std::string::npos;
-  if ((words[0] == "LIST" && words.size() > 1) || (isPattern && words.size() > 4))
-  {
-    throw HeaderNotUnderstood("data files of another dimension");
-  }
+  // How many axes a file has may be said, and follows from the number of files as well: they are alike.
   if (words[0] == "LIST")
   {
     if (fields.ListedNames.empty())
@@ -116,6 +129,39 @@ IsBigEndian(const std::string & path, const NrrdFields & fields, ElementType typ
   }
   return endian == "big";
 }
+/** Fills in the type of the numbers, and how they stand in the files. */
+void
+DescribeNumbers(const std::string & path, const NrrdFields & fields, PlainLayout & layout)
+{
+  const std::string type = ToLower(fields.Get("type"));
+  const auto        known = Types.find(type);
+  if (known == Types.end())
+  {
+    FailToRead(path, "voxels of the type '" + type + "' are not supported");
+  }
+  layout.Description.Format = "NRRD";
+  layout.Description.Component = known->second;
+  layout.Encoding = GetEncoding(path, ToLower(fields.Get("encoding")));
+  layout.IsBigEndian = layout.Encoding != PlainEncoding::Text && IsBigEndian(path, fields, known->second);
+}
+
+void
+LocateNumbers(const std::string & path, const NrrdFields & fields, PlainLayout & layout)
+{
+  const bool isCompressed = layout.Encoding == PlainEncoding::Compressed;
+  DataFiles  files;
+  files.HeaderEnd = fields.End;
+  const std::int64_t lines = ParseInteger(path, "line skip", fields.Find("lineskip").value_or("0"));
+  files.ByteSkip = ParseInteger(path, "byte skip", fields.Find("byteskip").value_or("0"));
+  if (lines < 0 || files.ByteSkip < -1 || (isCompressed && files.ByteSkip < 0))
+  {
+    FailToRead(path, "its header has a negative number of lines or bytes to skip");
+  }
+  files.LineSkip = static_cast<std::uint64_t>(lines);
+  files.Names = FindDataFiles(path, fields);
+  layout.InflatedOffset = isCompressed ? static_cast<std::uint64_t>(files.ByteSkip) : 0;
+  LocateData(path, files, layout);
+}
 } // namespace
 
 PlainLayout
@@ -125,44 +171,26 @@ ReadNrrdHeader(const std::string & path)
   const NrrdFields   fields(file);
   PlainLayout        layout;
   ImageDescription & description = layout.Description;
-  description.Format = "NRRD";
-  const std::string type = ToLower(fields.Get("type"));
-  const auto        known = Types.find(type);
-  if (known == Types.end())
-  {
-    FailToRead(path, "voxels of the type '" + type + "' are not supported");
-  }
-  description.Component = known->second;
-  const std::string encoding = ToLower(fields.Get("encoding"));
-  layout.IsCompressed = encoding == "gz" || encoding == "gzip";
-  if (encoding == "ascii" || encoding == "text" || encoding == "txt" || encoding == "hex")
-  {
-    throw HeaderNotUnderstood("the encoding " + encoding);
-  }
-  if (!layout.IsCompressed && encoding != "raw")
-  {
-    FailToRead(path, "its encoding " + encoding + " is not supported; raw, gzip, ascii and hex are");
-  }
+  DescribeNumbers(path, fields, layout);
   NrrdAxes(path, fields).Describe(description);
   CheckDescription(path, description);
   CopyMetadata(fields, description);
-  layout.IsBigEndian = IsBigEndian(path, fields, description.Component);
-
-  DataFiles files;
-  files.HeaderEnd = fields.End;
-  const std::int64_t lines = ParseInteger(path, "line skip", fields.Find("lineskip").value_or("0"));
-  files.ByteSkip = ParseInteger(path, "byte skip", fields.Find("byteskip").value_or("0"));
-  if (lines < 0 || files.ByteSkip < -1 || (layout.IsCompressed && files.ByteSkip < 0))
-  {
-    FailToRead(path, "its header has a negative number of lines or bytes to skip");
-  }
-  files.LineSkip = static_cast<std::uint64_t>(lines);
-  files.Names = FindDataFiles(path, fields);
-  if (layout.IsCompressed && files.Names.size() > 1)
+  LocateNumbers(path, fields, layout);
+  if (layout.Encoding == PlainEncoding::Compressed && layout.Sections.size() > 1)
   {
     throw HeaderNotUnderstood("several compressed data files");
   }
-  layout.InflatedOffset = layout.IsCompressed ? static_cast<std::uint64_t>(files.ByteSkip) : 0;
-  LocateData(path, files, layout);
+  return layout;
+}
+
+PlainLayout
+ReadNrrdNumbers(const std::string & path)
+{
+  const InputFile  file(path);
+  const NrrdFields fields(file);
+  PlainLayout      layout;
+  DescribeNumbers(path, fields, layout);
+  layout.Description.Grid.Size = NrrdAxes(path, fields).GetSizes();
+  LocateNumbers(path, fields, layout);
   return layout;
 }

@@ -13,6 +13,11 @@
 PlainLayout
 ReadNrrdHeader(const std::string & path);
 
+/** Finds the numbers of an NRRD of any kind, and says nothing of the grid but the sizes of all axes.
+ * \throw std::runtime_error if the header or the files are not right */
+PlainLayout
+ReadNrrdNumbers(const std::string & path);
+
 /** A whole header, the empty line at its end included.
  * \param dataFile the name of the data file; empty: the voxels follow the header */
 std::string

@@ -27,6 +27,13 @@ IsNrrd(const fs::path & output)
   return ending == ".nrrd" || ending == ".nhdr";
 }
 
+bool
+IsDetached(const fs::path & output)
+{
+  const std::string ending = ToLower(output.extension().string());
+  return ending == ".mhd" || ending == ".nhdr";
+}
+
 /** A name that no reader takes for a list, a pattern or several words, and that the file system can hold. */
 std::string
 GetDataName(const fs::path & output, const bool isCompressed)
@@ -108,10 +115,9 @@ ComposePlainHeader(const fs::path &         output,
                    const OutputOptions &    options,
                    const std::string &      dataName)
 {
-  PlainHeader       header;
-  const std::string ending = ToLower(output.extension().string());
+  PlainHeader header;
   header.IsNrrd = IsNrrd(output);
-  header.IsDetached = ending == ".mhd" || ending == ".nhdr";
+  header.IsDetached = IsDetached(output);
   header.DataName = !header.IsDetached ? "" : dataName.empty() ? GetDataName(output, options.Compress) : dataName;
   const auto style = header.IsNrrd ? MetadataStyle::Nrrd : MetadataStyle::MetaImage;
   const auto metadata = SelectMetadata(description, style, options.KeepMetadata);
@@ -155,6 +161,21 @@ FindOldDataFile(const fs::path & output, const bool isCompressed)
   std::error_code error;
   const bool isOld = isOwn && fs::is_regular_file(fs::symlink_status(data, error)) && !FindOtherOwner(data, output);
   return isOld ? std::optional<fs::path>(data) : std::nullopt;
+}
+
+std::vector<fs::path>
+ListReplacedFiles(const fs::path & output, const bool isCompressed)
+{
+  std::vector<fs::path> files = { output };
+  if (IsDetached(output))
+  {
+    files.push_back(output.parent_path() / GetDataName(output, isCompressed));
+    if (const auto old = FindOldDataFile(output, isCompressed))
+    {
+      files.push_back(*old);
+    }
+  }
+  return files;
 }
 
 void

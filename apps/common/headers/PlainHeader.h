@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 /** The text before the voxels of a .mha or .nrrd, or beside those of a .mhd or .nhdr. */
 struct PlainHeader
@@ -32,6 +33,11 @@ ComposePlainHeader(const std::filesystem::path & output,
 /** A name that is free in a folder, for voxels that cannot have theirs yet: scan.new-x1Y2z3.raw for scan.raw. */
 std::string
 MakeInterimDataName(const std::filesystem::path & folder, const std::string & dataName);
+
+/** The output, and the files beside it that it replaces or that go with the one that it replaces, be they there or not.
+ * \param output symbolic links followed */
+std::vector<std::filesystem::path>
+ListReplacedFiles(const std::filesystem::path & output, bool isCompressed);
 
 /** \throw std::runtime_error if the data file would replace a file that is not that of an earlier output alone */
 void

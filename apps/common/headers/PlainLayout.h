@@ -8,13 +8,23 @@
 #include <cstdint>
 #include <vector>
 
+/** How voxels stand in a file: as they are, compressed (zlib or gzip, as the first bytes tell), or as text, as numbers
+ * or as the hexadecimal digits of their bytes. */
+enum class PlainEncoding
+{
+  Raw,
+  Compressed,
+  Text,
+  Hex
+};
+
 /** Where the voxels of an image stand behind a text header: x fastest, one part after the other. */
 struct PlainLayout
 {
   ImageDescription         Description;
-  std::vector<FileSection> Sections;             // of the voxels' bytes, or the only one of their compressed stream
-  bool                     IsCompressed = false; // zlib or gzip, as its first bytes tell
-  std::uint64_t            InflatedOffset = 0;   // bytes of the decompressed stream before the voxels
+  std::vector<FileSection> Sections; // of the voxels as they stand, each of as many; a compressed stream is one
+  PlainEncoding            Encoding = PlainEncoding::Raw;
+  std::uint64_t            InflatedOffset = 0; // bytes of the decompressed stream before the voxels
   bool                     IsBigEndian = false;
 };
 

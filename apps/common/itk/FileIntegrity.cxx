@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "itk/FileIntegrity.h"
-#include "itk/MetaImageIntegrity.h"
-#include "itk/TextIntegrity.h"
+#include "itk/VtkFile.h"
 #include "nifti/NiftiFiles.h"
 #include "nifti/NiftiHeader.h"
 
@@ -85,9 +84,17 @@ CheckBytes(const std::string & path, std::uint64_t available, std::uint64_t expe
   }
 }
 
+/** Checks that there are exactly so many bytes, and that a compressed stream ends with them.
+ * \param bytes are at the start */
 void
-CheckEnd(const std::string & path, Bytes & bytes)
+CheckLength(const std::string & path, Bytes & bytes, std::uint64_t expected)
 {
+  CheckBytes(path, bytes.Skip(expected), expected);
+  if (bytes.Skip(1) != 0)
+  {
+    throw std::runtime_error("cannot read " + path + ": it holds more than the " + std::to_string(expected) +
+                             " bytes that its header says; the size or the type of the image in the header is wrong");
+  }
   if (!bytes.EndsWell())
   {
     throw std::runtime_error("cannot read " + path + ": its compressed data is truncated or damaged");
@@ -97,7 +104,9 @@ CheckEnd(const std::string & path, Bytes & bytes)
 void
 CheckForFaults(const std::string & path, const NiftiHeader & header)
 {
-  const std::string fault = header.FindFault();
+  const std::string fault = header.GetDataBytes() == 0
+                              ? "it has no voxels: a size (dim) or the bits of a voxel (bitpix) in its header are 0"
+                              : header.FindFault();
   if (!fault.empty())
   {
     throw std::runtime_error("cannot read " + path + ": " + fault);
@@ -114,8 +123,7 @@ CheckNiftiPair(const std::string & path)
     CheckForFaults(path, header);
     const std::uint64_t expected = header.GetDataOffset() + header.GetDataBytes();
     Bytes               bytes(files.Voxels);
-    CheckBytes(files.Voxels, bytes.Skip(expected), expected);
-    CheckEnd(files.Voxels, bytes);
+    CheckLength(files.Voxels, bytes, expected);
   }
 }
 
@@ -133,8 +141,7 @@ CheckNifti(const std::string & path)
     CheckForFaults(path, header);
     const std::uint64_t expected = header.GetDataOffset() + header.GetDataBytes();
     Bytes               bytes(path);
-    CheckBytes(path, bytes.Skip(expected), expected);
-    CheckEnd(path, bytes);
+    CheckLength(path, bytes, expected);
   }
 }
 
@@ -144,8 +151,7 @@ CheckGipl(const std::string & path, const itk::ImageIOBase & imageIO)
   constexpr std::uint64_t header = 256;
   const std::uint64_t     expected = header + static_cast<std::uint64_t>(imageIO.GetImageSizeInBytes());
   Bytes                   bytes(path);
-  CheckBytes(path, bytes.Skip(expected), expected);
-  CheckEnd(path, bytes);
+  CheckLength(path, bytes, expected);
 }
 
 [[noreturn]] void
@@ -169,26 +175,50 @@ CheckBmp(const std::string & path)
   }
 }
 
-/** The header tells which axis of space is the fastest one and which the slowest. */
-void
-CheckMrc(const std::string & path)
+using MrcHeader = std::array<unsigned char, 1024>;
+
+MrcHeader
+ReadMrcHeader(const std::string & path)
 {
-  constexpr std::streamoff      place = 64;
-  std::array<unsigned char, 12> bytes{};
-  std::ifstream                 file(path, std::ios::binary);
-  file.seekg(place);
-  file.read(reinterpret_cast<char *>(bytes.data()), bytes.size());
-  std::string order;
+  MrcHeader     header{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char *>(header.data()), header.size());
+  if (!file)
+  {
+    FailOfEnd(path);
+  }
+  return header;
+}
+
+std::uint64_t
+GetLittleEndian(const MrcHeader & header, std::size_t place)
+{
+  return header[place] + (std::uint64_t{ header[place + 1] } << 8) + (std::uint64_t{ header[place + 2] } << 16) +
+         (std::uint64_t{ header[place + 3] } << 24);
+}
+
+/** The header tells which axis of space is the fastest one and which the slowest, and how long the file is. */
+void
+CheckMrc(const std::string & path, const itk::ImageIOBase & imageIO)
+{
+  constexpr std::size_t axes = 64;
+  constexpr std::size_t extension = 92;
+  const MrcHeader       header = ReadMrcHeader(path);
+  std::string           order;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    // The numbers are from 1 to 3, in either byte order.
-    order += (axis > 0 ? " " : "") + std::to_string(bytes[4 * axis] + bytes[4 * axis + 3]);
+    order += (axis > 0 ? " " : "") + std::to_string(GetLittleEndian(header, axes + 4 * axis));
   }
-  if (file && order != "1 2 3" && order != "0 0 0")
+  if (order != "1 2 3" && order != "0 0 0")
   {
     throw std::runtime_error("cannot read " + path + ": its axes are stored in the order " + order +
                              " of x, y and z, of which only 1 2 3 is supported; have its program save it so");
   }
+  Bytes bytes(path);
+  CheckLength(path,
+              bytes,
+              header.size() + GetLittleEndian(header, extension) +
+                static_cast<std::uint64_t>(imageIO.GetImageSizeInBytes()));
 }
 
 /** Reads the last voxel alone: reading regions, these formats do tell if there is nothing. */
@@ -215,14 +245,25 @@ CheckLastVoxel(const std::string & path, itk::ImageIOBase & imageIO)
 } // namespace
 
 void
+CheckMrcByteOrder(const std::string & path)
+{
+  constexpr std::size_t   mode = 12; // a small number
+  constexpr std::size_t   stamp = 212;
+  constexpr unsigned char bigEndian = 0x11;
+  const MrcHeader         header = ReadMrcHeader(path);
+  if (header[stamp] == bigEndian || (header[mode] == 0 && header[mode + 3] != 0))
+  {
+    throw std::runtime_error("cannot read " + path +
+                             ": its numbers are big-endian, of which only little-endian is supported; have its program "
+                             "save it so");
+  }
+}
+
+void
 CheckFileIsWhole(const std::string & path, itk::ImageIOBase & imageIO)
 {
   const std::string format = imageIO.GetNameOfClass();
-  if (format == "MetaImageIO")
-  {
-    CheckMetaImageIsWhole(path, imageIO);
-  }
-  else if (format == "NiftiImageIO")
+  if (format == "NiftiImageIO")
   {
     CheckNifti(path);
   }
@@ -232,21 +273,19 @@ CheckFileIsWhole(const std::string & path, itk::ImageIOBase & imageIO)
   }
   else if (format == "MRCImageIO")
   {
-    CheckMrc(path);
-    CheckLastVoxel(path, imageIO);
+    CheckMrc(path, imageIO);
   }
   else if (format == "BMPImageIO")
   {
     CheckBmp(path);
   }
-  else if (dynamic_cast<itk::StreamingImageIOBase *>(&imageIO) != nullptr && imageIO.CanStreamRead() &&
-           imageIO.GetFileType() != itk::IOFileEnum::ASCII)
+  else if (format == "VTKImageIO")
+  {
+    CheckVtk(path, imageIO);
+  }
+  else if (dynamic_cast<itk::StreamingImageIOBase *>(&imageIO) != nullptr && imageIO.CanStreamRead())
   {
     CheckLastVoxel(path, imageIO);
-  }
-  else if (format == "VTKImageIO" && imageIO.GetFileType() == itk::IOFileEnum::ASCII)
-  {
-    CheckTextIsWhole(path, imageIO);
   }
 }
 

@@ -13,6 +13,11 @@
 void
 CheckFileIsWhole(const std::string & path, itk::ImageIOBase & imageIO);
 
+/** ITK's reader of MRC files crashes where the byte order is big-endian.
+ * \throw std::runtime_error if it is */
+void
+CheckMrcByteOrder(const std::string & path);
+
 /** Checks what a library printed while it read a file, where that is the only sign that data is missing.
  * \throw std::runtime_error */
 void

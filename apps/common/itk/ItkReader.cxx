@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "itk/ItkReader.h"
+#include "headers/DataOwners.h"
 #include "itk/Bitmap.h"
 #include "itk/FileIntegrity.h"
 #include "itk/JpegIntegrity.h"
+#include "itk/LibraryReason.h"
+#include "itk/PictureColours.h"
 #include "itk/PixelComponent.h"
+#include "itk/VtkFile.h"
 #include "nifti/NiftiFiles.h"
 #include "nifti/NiftiHeader.h"
 #include "system/files/InputFile.h"
 #include "system/process/WatchedTask.h"
 #include "text/HeaderText.h"
-#include "text/OneLineMessage.h"
 #include "volumes/BoxRuns.h"
 #include "volumes/DescriptionCheck.h"
 
@@ -33,7 +36,7 @@ GetFormatName(const itk::ImageIOBase & imageIO)
   const std::string suffix = "ImageIO";
   const auto        end = name.rfind(suffix);
   const std::string format = end == std::string::npos ? name : name.substr(0, end);
-  return format == "Nifti" ? "NIfTI" : format == "Nrrd" ? "NRRD" : format == "Meta" ? "MetaImage" : format;
+  return format == "Nifti" ? "NIfTI" : format == "Nrrd" ? "NRRD" : format;
 }
 
 VoxelKind
@@ -89,6 +92,23 @@ Describe(const std::string & path, const itk::ImageIOBase & imageIO)
   description.Metadata = GetMetadata(imageIO.GetMetaDataDictionary());
   CheckDescription(path, description);
   return description;
+}
+
+NiftiHeader
+ReadNiftiHeader(const std::string & path)
+{
+  return NiftiHeader(IsNiftiPair(path) ? FindNiftiPair(path).Header : path);
+}
+
+/** Before version 5.4, ITK's reader of NIfTI puts the spacing in space alone into millimetres. */
+void
+CompleteUnits(const std::string & path, const itk::ImageIOBase & imageIO, ImageGrid & grid)
+{
+  constexpr bool isRestLeft = ITK_VERSION_MAJOR < 5 || (ITK_VERSION_MAJOR == 5 && ITK_VERSION_MINOR < 4);
+  if (isRestLeft && std::string(imageIO.GetNameOfClass()) == "NiftiImageIO")
+  {
+    ReadNiftiHeader(path).CompleteUnits(grid);
+  }
 }
 
 /** Whether ITK's reader of the format reads a region right, without the rest. */
@@ -154,6 +174,33 @@ GetKnownEnding(const std::string & path)
   return GetMistakenNiftiEnding(path);
 }
 
+/** Calls ITK, some of whose libraries throw what is no std::exception, as HDF5's does. */
+template <typename TFunction>
+void
+CallLibrary(const std::string & path, TFunction && function)
+{
+  try
+  {
+    function();
+  }
+  catch (const std::exception &)
+  {
+    throw;
+  }
+  catch (...)
+  {
+    FailToRead(path, "it is damaged: the library of its format cannot read it");
+  }
+}
+
+/** Whether a file is HDF5, whatever it holds. */
+bool
+IsHdf5(const std::string & path)
+{
+  const std::string sign = "\x89HDF\r\n\x1A\n";
+  return InputFile(path).ReadTextAt(0, sign.size()) == sign;
+}
+
 bool
 IsWhole(const std::vector<std::uint64_t> & size, const Box & box)
 {
@@ -168,15 +215,6 @@ IsWhole(const std::vector<std::uint64_t> & size, const Box & box)
 }
 } // namespace
 
-std::string
-GetReason(const std::exception & error)
-{
-  const auto * const itkError = dynamic_cast<const itk::ExceptionObject *>(&error);
-  const std::string  text = MakeOneLine(itkError != nullptr ? itkError->GetDescription() : error.what());
-  const std::string  start = "ITK ERROR: ";
-  return text.rfind(start, 0) == 0 ? text.substr(start.size()) : text;
-}
-
 ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   : m_Path(path)
 {
@@ -190,6 +228,11 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
     FindNiftiPair(path); // says which file of the two is not there
   }
   InputFile{ path }; // says why it cannot be opened, and keeps pipes from being waited for
+  if (!ReadNiftiHeader(path).IsPlacedFinitely())
+  {
+    FailToRead(path,
+               "its placement (qform or sform) has numbers that are not finite; --raw reads it without its header");
+  }
   const std::string fault = FindJpegFault(path);
   if (!fault.empty())
   {
@@ -197,8 +240,8 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   }
   const std::string known = GetKnownEnding(path);
   m_Links = known.empty() ? nullptr : LinkFolder::Get();
-  const std::string name = m_Links == nullptr ? path : m_Links->Link(path, known);
-  m_ImageIO = FindByContent(name);
+  m_Name = m_Links == nullptr ? path : m_Links->Link(path, known);
+  m_ImageIO = FindByContent(m_Name);
   const std::string ending = std::filesystem::path(path).extension().string();
   if (m_ImageIO.IsNull() && ending != ToLower(ending))
   {
@@ -207,6 +250,11 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   if (m_ImageIO.IsNull() && NiftiHeader(path).IsOfVersion2())
   {
     FailToRead(path, "it is a NIfTI-2 file, of which only version 1 is supported; save it as NIfTI-1 or NRRD");
+  }
+  if (m_ImageIO.IsNull() && IsHdf5(path))
+  {
+    FailToRead(
+      path, "it is an HDF5 file that holds no image as ITK writes it, or is damaged; save its array as .nrrd or .mha");
   }
   if (m_ImageIO.IsNull())
   {
@@ -217,25 +265,70 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
          : "it is no " + meantFormat + " file, or is damaged at its start, and is in none of the other known formats") +
         ", which SubdivideVolume --formats lists; --raw reads voxels without a header");
   }
+  if (std::string(m_ImageIO->GetNameOfClass()) == "MRCImageIO")
+  {
+    CheckMrcByteOrder(path);
+  }
+  this->ReadHeader();
+  const std::string colourFault = FindColourFault(*m_ImageIO);
+  if (!colourFault.empty())
+  {
+    FailToRead(path, colourFault);
+  }
+  m_Description = Describe(path, *m_ImageIO);
+  CompleteUnits(path, *m_ImageIO, m_Description.Grid);
+  m_ReadsParts = ReadsRegions(*m_ImageIO);
+  CallLibrary(path, [&] { CheckFileIsWhole(path, *m_ImageIO); });
+  if (IsVtkText(*m_ImageIO))
+  {
+    m_Whole = ReadVtkText(path, m_Description);
+  }
+}
+
+std::vector<std::string>
+ItkReader::GetFiles() const
+{
+  if (IsNiftiPair(m_Path))
+  {
+    const NiftiPair files = FindNiftiPair(m_Path);
+    return { files.Header, files.Voxels };
+  }
+  std::vector<std::string> files = { m_Path };
+  if (m_Description.Format == "NRRD")
+  {
+    const auto data = ListDataFiles(m_Path);
+    files.insert(files.end(), data.begin(), data.end());
+  }
+  return files;
+}
+
+void
+ItkReader::ReadHeader()
+{
   try
   {
     if (std::string(m_ImageIO->GetNameOfClass()) == "BMPImageIO")
     {
-      m_ImageIO = OpenBitmap(name);
+      m_ImageIO = OpenBitmap(m_Name);
     }
     else
     {
-      m_ImageIO->SetFileName(name);
-      m_ImageIO->ReadImageInformation();
+      CallLibrary(m_Path, [&] {
+        m_ImageIO->SetFileName(m_Name);
+        m_ImageIO->ReadImageInformation();
+      });
     }
   }
   catch (const itk::ExceptionObject & error)
   {
-    FailToRead(path, GetReason(error));
+    FailToRead(m_Path, IsHdf5(m_Path) ? "it is damaged (" + GetReason(error, m_Path) + ')' : GetReason(error, m_Path));
   }
-  m_Description = Describe(path, *m_ImageIO);
-  m_ReadsParts = ReadsRegions(*m_ImageIO);
-  CheckFileIsWhole(path, *m_ImageIO);
+}
+
+ItkReader::~ItkReader()
+{
+  const WatchedTask task("cannot read " + m_Path);
+  m_ImageIO = nullptr;
 }
 
 bool
@@ -253,7 +346,12 @@ ItkReader::GetScratchBytes(std::uint64_t partBytes) const
 void
 ItkReader::ReadRegion(const Box & box, void * voxels)
 {
-  const WatchedTask  task("cannot read " + m_Path);
+  const WatchedTask task("cannot read " + m_Path);
+  if (m_HasReadWhole && !m_ReadsParts)
+  {
+    this->ReadHeader(); // GIPL's reader goes on where it stands, which is the end of the file
+  }
+  m_HasReadWhole = true;
   itk::ImageIORegion region(static_cast<unsigned int>(box.size()));
   for (unsigned int axis = 0; axis < box.size(); ++axis)
   {
@@ -262,14 +360,17 @@ ItkReader::ReadRegion(const Box & box, void * voxels)
   }
   try
   {
-    m_ImageIO->SetIORegion(region);
-    m_ImageIO->Read(voxels);
+    CallLibrary(m_Path, [&] {
+      m_ImageIO->SetIORegion(region);
+      m_ImageIO->Read(voxels);
+    });
   }
   catch (const itk::ExceptionObject & error)
   {
     const std::string & format = m_Description.Format;
     const bool          isPicture = format == "PNG" || format == "JPEG" || format == "BMP";
-    FailToRead(m_Path, isPicture ? "its pixels cannot be decoded; it is damaged or truncated" : GetReason(error));
+    FailToRead(m_Path,
+               isPicture ? "its pixels cannot be decoded; it is damaged or truncated" : GetReason(error, m_Path));
   }
 }
 

@@ -18,6 +18,11 @@ public:
    * \throw std::runtime_error that says why the file cannot be read, or is not whole */
   explicit ItkReader(const std::string & path, const std::string & meantFormat = {});
 
+  ~ItkReader() override;
+
+  std::vector<std::string>
+  GetFiles() const override;
+
   bool
   ReadsParts() const override;
 
@@ -29,17 +34,17 @@ public:
 
 private:
   void
+  ReadHeader();
+  void
   ReadRegion(const itk::Subdivision::Box & box, void * voxels);
 
   std::string                 m_Path;
+  std::string                 m_Name;    // that the format's reader knows the file by
   std::shared_ptr<LinkFolder> m_Links;   // where the file is opened by a link
   itk::ImageIOBase::Pointer   m_ImageIO; // has read the header
   bool                        m_ReadsParts;
+  bool                        m_HasReadWhole = false;
   std::vector<char>           m_Whole;
 };
-
-/** What an exception says, less the place in the code that ITK's exceptions name. */
-std::string
-GetReason(const std::exception & error);
 
 #endif

@@ -3,12 +3,14 @@
 #include "deflate/ParallelDeflate.h"
 #include "headers/Metadata.h"
 #include "itk/ItkReader.h"
+#include "itk/LibraryReason.h"
 #include "itk/PixelComponent.h"
 #include "itk/WrittenImage.h"
 #include "nifti/NiftiFiles.h"
 #include "system/files/CurrentFolder.h"
 #include "system/files/InputFile.h"
 #include "system/files/OutputFile.h"
+#include "system/process/WatchedTask.h"
 #include "text/HeaderText.h"
 
 #include "itkImageFileReader.h" // registers the formats
@@ -71,6 +73,20 @@ CheckSize(const std::string & path, const ImageDescription & description, const 
            "its format holds up to " + std::to_string(largest) + " voxels along an axis, not " + std::to_string(size) +
              "; .mha, .mhd and .nrrd have no such limit");
     }
+  }
+}
+
+/** ITK writes other components than those into BMP and JPEG files, too, which programs take for other colours. */
+void
+CheckComponents(const std::string & path, const ImageDescription & description, const itk::ImageIOBase & imageIO)
+{
+  const std::string  format = imageIO.GetNameOfClass();
+  const unsigned int components = description.NumberOfComponents;
+  if ((format == "BMPImageIO" || format == "JPEGImageIO") && components != 1 && components != 3)
+  {
+    Fail(path,
+         "its format holds grey values or colours of 3 components, not " + std::to_string(components) +
+           " components; use .tif, .mha or .nrrd" + (components < 5 ? ", or .png in 2D" : ""));
   }
 }
 
@@ -141,6 +157,13 @@ ItkWriter::ItkWriter(const std::string & path, const OutputOptions & options, co
   m_IsGzipped = name.size() > ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
 }
 
+std::vector<fs::path>
+ItkWriter::GetReplacedFiles() const
+{
+  const std::string output = ResolveOutput(m_Path).string();
+  return IsNiftiPair(output) ? ListWrittenPair(output) : std::vector<fs::path>{ output };
+}
+
 bool
 ItkWriter::WritesParts() const
 {
@@ -195,6 +218,7 @@ ItkWriter::MakeImageIO(const ImageDescription & description) const
 void
 ItkWriter::WriteFile(const ImageDescription & description, const void * voxels) const
 {
+  const WatchedTask   task("cannot write " + m_Path);
   const CurrentFolder folder(m_File.parent_path());
   // Some formats are written to the end only when their writer is gone.
   this->MakeImageIO(description)->Write(voxels);
@@ -255,7 +279,9 @@ ItkWriter::Begin(const ImageDescription & description)
   m_Folder = std::make_unique<TemporaryFolder>(m_Path, m_Warn);
   const fs::path output = m_Folder->GetFileName();
   m_File = output.parent_path() / (m_IsGzipped ? "image.nii" : WithEndingInSmallLetters(output.filename()));
-  CheckSize(m_Path, description, *this->MakeImageIO(description));
+  const ImageIOPointer imageIO = this->MakeImageIO(description);
+  CheckSize(m_Path, description, *imageIO);
+  CheckComponents(m_Path, description, *imageIO);
   this->Try();
 }
 

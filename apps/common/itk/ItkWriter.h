@@ -20,6 +20,9 @@ public:
   /** \throw std::runtime_error if no format has the name's ending */
   ItkWriter(const std::string & path, const OutputOptions & options, const WarningSink & warn);
 
+  std::vector<std::filesystem::path>
+  GetReplacedFiles() const override;
+
   bool
   WritesParts() const override;
 

@@ -79,3 +79,13 @@ FindNiftiPair(const std::string & path)
   const std::string gz = isSmall ? ".gz" : ".GZ";
   return { FindFile(path, stem, isSmall ? ".hdr" : ".HDR", gz), FindFile(path, stem, isSmall ? ".img" : ".IMG", gz) };
 }
+
+std::vector<fs::path>
+ListWrittenPair(const std::string & path)
+{
+  const std::string ending = GetEnding(path);
+  const std::string stem = path.substr(0, path.size() - ending.size());
+  const std::string gz = ending.substr(ending.find_first_not_of('.') + 3); // ".gz" or nothing
+  const bool        isSmall = ending == ToLower(ending);
+  return { stem + (isSmall ? ".hdr" : ".HDR") + gz, stem + (isSmall ? ".img" : ".IMG") + gz };
+}

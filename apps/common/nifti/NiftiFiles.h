@@ -2,7 +2,9 @@
 #ifndef NiftiFiles_h
 #define NiftiFiles_h
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 // The library of NIfTI looks for the files of an image by the stem of the name that it is given, whatever its ending.
 
@@ -30,5 +32,9 @@ IsNiftiPair(const std::string & path);
  * \throw std::runtime_error if one is missing, or is there twice, compressed and not */
 NiftiPair
 FindNiftiPair(const std::string & path);
+
+/** The names of both files of a pair that is written under the name of one of them. */
+std::vector<std::filesystem::path>
+ListWrittenPair(const std::string & path);
 
 #endif

@@ -7,22 +7,49 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace
 {
 /** Where numbers stand. */
 constexpr std::size_t Dimensions = 40;
+constexpr std::size_t Intent = 68;
+constexpr std::size_t DataType = 70;
 constexpr std::size_t Bits = 72;
 constexpr std::size_t Spacings = 76;
 constexpr std::size_t DataOffset = 108;
 constexpr std::size_t Slope = 112;
 constexpr std::size_t Intercept = 116;
+constexpr std::size_t Units = 123;
+constexpr std::size_t TimeOffset = 136;
 constexpr std::size_t QuaternionCode = 252;
 constexpr std::size_t MatrixCode = 254;
 constexpr std::size_t Quaternion = 256;
 constexpr std::size_t Offsets = 268;
 constexpr std::size_t Rows = 280;
 constexpr std::size_t Magic = 344;
+
+/** Types of voxels that are not one number of a type of C++. */
+constexpr int Complex64 = 32;
+constexpr int Rgb24 = 128;
+constexpr int Complex128 = 1792;
+constexpr int Rgba32 = 2304;
+
+/** Millimetres in the unit of space; what is none of the known units is taken for millimetres. */
+double
+GetMillimetres(unsigned int units)
+{
+  const unsigned int unit = units & 7;
+  return unit == 1 ? 1e3 : unit == 3 ? 1e-3 : 1.0;
+}
+
+/** Seconds in the unit of time; the fourth axis may have another unit, which stays. */
+double
+GetSeconds(unsigned int units)
+{
+  const unsigned int unit = units & 56;
+  return unit == 16 ? 1e-3 : unit == 24 ? 1e-6 : 1.0;
+}
 } // namespace
 
 NiftiHeader::NiftiHeader(const std::string & path)
@@ -31,6 +58,7 @@ NiftiHeader::NiftiHeader(const std::string & path)
   m_IsComplete = file != nullptr && gzread(file, m_Bytes.data(), Size) == static_cast<int>(Size);
   if (file != nullptr)
   {
+    m_IsCompressed = gzdirect(file) == 0;
     gzclose(file);
   }
   m_IsSwapped = this->Get<std::int16_t>(Dimensions) < 1 || this->Get<std::int16_t>(Dimensions) > 7;
@@ -70,6 +98,81 @@ NiftiHeader::IsOfVersion2() const
          (std::memcmp(m_Bytes.data() + 4, "n+2", 3) == 0 || std::memcmp(m_Bytes.data() + 4, "ni2", 3) == 0);
 }
 
+bool
+NiftiHeader::IsBigEndian() const
+{
+  const std::uint16_t one = 1;
+  const bool          isMachineBig = *reinterpret_cast<const unsigned char *>(&one) == 0;
+  return isMachineBig != m_IsSwapped;
+}
+
+std::optional<itk::Subdivision::ElementType>
+NiftiHeader::GetComponent() const
+{
+  using itk::Subdivision::ElementType;
+  switch (this->Get<std::int16_t>(DataType))
+  {
+    case 2:
+    case Rgb24:
+    case Rgba32:
+      return ElementType::UInt8;
+    case 4:
+      return ElementType::Int16;
+    case 8:
+      return ElementType::Int32;
+    case 16:
+    case Complex64:
+      return ElementType::Float;
+    case 64:
+    case Complex128:
+      return ElementType::Double;
+    case 256:
+      return ElementType::Int8;
+    case 512:
+      return ElementType::UInt16;
+    case 768:
+      return ElementType::UInt32;
+    case 1024:
+      return ElementType::Int64;
+    case 1280:
+      return ElementType::UInt64;
+    default:
+      return std::nullopt;
+  }
+}
+
+bool
+NiftiHeader::HasComponentsSideBySide() const
+{
+  const int type = this->Get<std::int16_t>(DataType);
+  return type == Complex64 || type == Complex128 || type == Rgb24 || type == Rgba32;
+}
+
+bool
+NiftiHeader::HoldsDisplacements() const
+{
+  return this->Get<std::int16_t>(Intent) == 1006;
+}
+
+std::optional<std::pair<double, double>>
+NiftiHeader::GetRescaling() const
+{
+  constexpr double least = std::numeric_limits<double>::epsilon();
+  const double     stored = this->Get<float>(Slope);
+  const double     slope = std::abs(stored) < least ? 1.0 : stored;
+  const double     intercept = this->Get<float>(Intercept);
+  const bool       isNifti = m_Bytes[Magic] == 'n'; // Analyze has no slope there
+  const bool       changes = std::abs(slope - 1.0) > least || std::abs(intercept) > least;
+  return isNifti && changes ? std::make_optional(std::make_pair(slope, intercept)) : std::nullopt;
+}
+
+bool
+NiftiHeader::HasDataOffset() const
+{
+  const float offset = this->Get<float>(DataOffset);
+  return offset >= 0 && offset < 1e15f && offset == std::floor(offset);
+}
+
 std::uint64_t
 NiftiHeader::GetDataOffset() const
 {
@@ -86,6 +189,22 @@ NiftiHeader::GetDataBytes() const
     bits *= this->Get<std::uint16_t>(Dimensions + 2 * static_cast<std::size_t>(axis));
   }
   return bits / 8;
+}
+
+void
+NiftiHeader::CompleteUnits(ImageGrid & grid) const
+{
+  const auto units = static_cast<unsigned char>(m_Bytes[Units]);
+  for (std::size_t axis = 0; axis < 3 && axis < grid.Origin.size(); ++axis)
+  {
+    grid.Origin[axis] *= GetMillimetres(units);
+  }
+  if (grid.Size.size() > 3)
+  {
+    const double start = this->Get<float>(TimeOffset);
+    grid.Spacing[3] *= GetSeconds(units);
+    grid.Origin[3] = this->IsPlaced() && std::isfinite(start) ? start * GetSeconds(units) : 0.0;
+  }
 }
 
 std::string
@@ -139,6 +258,33 @@ NiftiHeader::GetMatrix() const
     matrix[i / 4][i % 4] = this->Get<float>(Rows + 4 * i);
   }
   return matrix;
+}
+
+bool
+NiftiHeader::IsPlacedFinitely() const
+{
+  const auto areFinite = [this](std::size_t place, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (!std::isfinite(this->Get<float>(place + 4 * i)))
+      {
+        return false;
+      }
+    }
+    return true;
+  };
+  constexpr std::size_t quaternionNumbers = 6; // with the offsets after it
+  constexpr std::size_t matrixNumbers = 12;
+  return !this->IsPlaced() ||
+         ((this->Get<std::int16_t>(QuaternionCode) <= 0 || areFinite(Quaternion, quaternionNumbers)) &&
+          (this->Get<std::int16_t>(MatrixCode) <= 0 || areFinite(Rows, matrixNumbers)));
+}
+
+bool
+NiftiHeader::IsPlaced() const
+{
+  return m_IsComplete && m_Bytes[Magic] == 'n' &&
+         (this->Get<std::int16_t>(QuaternionCode) > 0 || this->Get<std::int16_t>(MatrixCode) > 0);
 }
 
 bool

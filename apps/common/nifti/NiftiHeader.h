@@ -6,7 +6,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 
 /** Numbers of the header of a NIfTI-1 file, or of an Analyze one, in either byte order. */
 class NiftiHeader
@@ -27,6 +29,36 @@ public:
   bool
   IsOfVersion2() const;
 
+  /** Whether the header's file, and so the voxels of a single file, is a compressed stream. */
+  bool
+  IsCompressed() const
+  {
+    return m_IsCompressed;
+  }
+
+  bool
+  IsBigEndian() const;
+
+  /** The type of the stored components; nothing for those that are no whole bytes, or of 128 bits. */
+  std::optional<itk::Subdivision::ElementType>
+  GetComponent() const;
+
+  /** Whether the components of a voxel stand side by side, else each in a volume of its own. */
+  bool
+  HasComponentsSideBySide() const;
+
+  /** Whether the components are displacements: some versions of ITK turn their signs. */
+  bool
+  HoldsDisplacements() const;
+
+  /** Slope and intercept by which stored values become those that are meant, if they change any. */
+  std::optional<std::pair<double, double>>
+  GetRescaling() const;
+
+  /** Whether the place of the voxels is counted from the start of their file. */
+  bool
+  HasDataOffset() const;
+
   /** Bytes before the voxels. */
   std::uint64_t
   GetDataOffset() const;
@@ -34,9 +66,22 @@ public:
   std::uint64_t
   GetDataBytes() const;
 
+  /** Completes a grid whose spacing alone is in millimetres, and whose fourth axis starts at 0 and is in the header's
+   * unit: the origin becomes millimetres, and time becomes seconds from the header's start on. */
+  void
+  CompleteUnits(ImageGrid & grid) const;
+
   /** What of it readers take in different ways, so that none can be right; empty if nothing. */
   std::string
   FindFault() const;
+
+  /** Whether the placements that it has are of finite numbers: ITK ends the program over others. */
+  bool
+  IsPlacedFinitely() const;
+
+  /** Whether it places the voxels at all. */
+  bool
+  IsPlaced() const;
 
   /** Whether it places the voxels twice, by a quaternion (qform) and by a matrix (sform), at different places. */
   bool
@@ -61,6 +106,7 @@ private:
   std::array<char, Size>       m_Bytes{};
   bool                         m_IsComplete = false;
   bool                         m_IsSwapped = false;
+  bool                         m_IsCompressed = false;
 };
 
 #endif

@@ -21,6 +21,12 @@ public:
     , m_Options(options)
   {}
 
+  std::vector<fs::path>
+  GetReplacedFiles() const override
+  {
+    return ListReplacedFiles(m_Output, false);
+  }
+
   bool
   WritesParts() const override
   {

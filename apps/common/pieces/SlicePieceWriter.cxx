@@ -22,6 +22,12 @@ public:
     , m_Warn(std::move(warn))
   {}
 
+  std::vector<fs::path>
+  GetReplacedFiles() const override
+  {
+    return { m_Output };
+  }
+
   bool
   WritesParts() const override
   {
@@ -130,6 +136,7 @@ public:
       }
     }
     CheckOldSlices(m_Path, m_Output); // other programs may have written there meanwhile
+    KeepFilesOfSystems(m_Path, m_Output, folder / m_Output.filename());
   }
 
   std::optional<DetachedPair>

@@ -2,6 +2,8 @@
 #include "plain/PlainReader.h"
 #include "headers/MetaHeader.h"
 #include "headers/NrrdHeader.h"
+#include "plain/ByteOrder.h"
+#include "plain/TextReader.h"
 #include "text/HeaderText.h"
 #include "volumes/BoxRuns.h"
 
@@ -11,49 +13,14 @@
 namespace
 {
 constexpr std::size_t MostOpenFiles = 64;
-
-template <std::size_t VSize>
-void
-SwapElements(char * bytes, std::uint64_t count)
-{
-  for (char * const end = bytes + count; bytes != end; bytes += VSize)
-  {
-    std::reverse(bytes, bytes + VSize);
-  }
-}
-
-void
-SwapBytes(std::size_t elementSize, char * bytes, std::uint64_t count)
-{
-  if (elementSize == 2)
-  {
-    SwapElements<2>(bytes, count);
-  }
-  else if (elementSize == 4)
-  {
-    SwapElements<4>(bytes, count);
-  }
-  else if (elementSize == 8)
-  {
-    SwapElements<8>(bytes, count);
-  }
-}
-
-bool
-IsBigEndianMachine()
-{
-  const std::uint16_t one = 1;
-  char                first = 0;
-  std::memcpy(&first, &one, 1);
-  return first == 0;
-}
 } // namespace
 
-PlainReader::PlainReader(const PlainLayout & layout)
-  : m_Layout(layout)
+PlainReader::PlainReader(const std::string & path, const PlainLayout & layout)
+  : m_Path(path)
+  , m_Layout(layout)
 {
   m_Description = layout.Description;
-  if (layout.IsCompressed)
+  if (layout.Encoding == PlainEncoding::Compressed)
   {
     m_Stream = std::make_unique<InflateStream>(layout.Sections.front());
   }
@@ -66,6 +33,17 @@ PlainReader::PlainReader(const PlainLayout & layout)
   }
 }
 
+std::vector<std::string>
+PlainReader::GetFiles() const
+{
+  std::vector<std::string> files = { m_Path };
+  for (const FileSection & section : m_Layout.Sections)
+  {
+    files.push_back(section.Path);
+  }
+  return files;
+}
+
 bool
 PlainReader::ReadsParts() const
 {
@@ -75,7 +53,7 @@ PlainReader::ReadsParts() const
 std::uint64_t
 PlainReader::GetScratchBytes(std::uint64_t partBytes) const
 {
-  return m_Layout.IsCompressed ? partBytes + InflateStream::ScratchBytes : 0;
+  return m_Stream != nullptr ? partBytes + InflateStream::ScratchBytes : 0;
 }
 
 void
@@ -87,11 +65,10 @@ PlainReader::Read(const itk::Subdivision::Box & box, void * voxels)
     this->ReadBytes(first * voxelBytes, bytes, count * voxelBytes);
     bytes += count * voxelBytes;
   });
-  if (m_Layout.IsBigEndian != IsBigEndianMachine())
-  {
-    const auto count = static_cast<std::uint64_t>(bytes - static_cast<char *>(voxels));
-    SwapBytes(itk::Subdivision::SizeOf(m_Description.Component), static_cast<char *>(voxels), count);
-  }
+  TurnToMachine(m_Layout.IsBigEndian,
+                itk::Subdivision::SizeOf(m_Description.Component),
+                static_cast<char *>(voxels),
+                static_cast<std::uint64_t>(bytes - static_cast<char *>(voxels)));
 }
 
 void
@@ -159,14 +136,56 @@ PlainReader::ReadCompressed(std::uint64_t offset, char * bytes, std::uint64_t co
   }
 }
 
+namespace
+{
+std::uint64_t
+MeasureStream(const FileSection & section)
+{
+  return InflateStream(section).Measure();
+}
+
+std::unique_ptr<VolumeReader>
+MakeReader(const std::string & path, const PlainLayout & layout)
+{
+  if (layout.Encoding == PlainEncoding::Text || layout.Encoding == PlainEncoding::Hex)
+  {
+    return std::make_unique<TextReader>(path, layout);
+  }
+  return std::make_unique<PlainReader>(path, layout);
+}
+} // namespace
+
 std::unique_ptr<VolumeReader>
 OpenMetaImage(const std::string & path)
 {
-  return std::make_unique<PlainReader>(ReadMetaHeader(path));
+  return MakeReader(path, ReadMetaHeader(path, MeasureStream));
 }
 
 std::unique_ptr<VolumeReader>
 OpenNrrd(const std::string & path)
 {
-  return std::make_unique<PlainReader>(ReadNrrdHeader(path));
+  return MakeReader(path, ReadNrrdHeader(path));
+}
+
+std::uint64_t
+CheckNrrdNumbers(const std::string & path)
+{
+  const PlainLayout   layout = ReadNrrdNumbers(path);
+  const std::uint64_t bytes = layout.Description.GetNumberOfVoxels() * layout.Description.GetVoxelBytes();
+  if (layout.Encoding == PlainEncoding::Text || layout.Encoding == PlainEncoding::Hex)
+  {
+    FailToRead(path, "voxels as text are not supported with axes like its own; save it with the encoding raw or gzip");
+  }
+  const std::uint64_t part = layout.InflatedOffset + bytes / layout.Sections.size();
+  for (const FileSection & section : layout.Sections)
+  {
+    const std::uint64_t found = layout.Encoding == PlainEncoding::Compressed ? MeasureStream(section) : part;
+    if (found != part)
+    {
+      FailToRead(section.Path,
+                 "its compressed data holds " + std::to_string(found) + " bytes, but its header says " +
+                   std::to_string(part) + "; the size or the type of the image in the header is wrong");
+    }
+  }
+  return bytes;
 }

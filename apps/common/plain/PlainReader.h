@@ -15,7 +15,10 @@
 class PlainReader : public VolumeReader
 {
 public:
-  explicit PlainReader(const PlainLayout & layout);
+  PlainReader(const std::string & path, const PlainLayout & layout);
+
+  std::vector<std::string>
+  GetFiles() const override;
 
   bool
   ReadsParts() const override;
@@ -34,6 +37,7 @@ private:
   void
   ReadCompressed(std::uint64_t offset, char * bytes, std::uint64_t count);
 
+  std::string                    m_Path;
   PlainLayout                    m_Layout;
   std::vector<InputFile>         m_Files; // open as long as the reader lives, if they are few
   std::unique_ptr<InflateStream> m_Stream;
@@ -47,5 +51,11 @@ std::unique_ptr<VolumeReader>
 OpenMetaImage(const std::string & path);
 std::unique_ptr<VolumeReader>
 OpenNrrd(const std::string & path);
+
+/** Checks that the files of an NRRD whose header is not understood hold exactly the numbers that it says.
+ * \return how many bytes they take
+ * \throw std::runtime_error */
+std::uint64_t
+CheckNrrdNumbers(const std::string & path);
 
 #endif

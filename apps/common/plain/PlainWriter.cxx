@@ -24,6 +24,12 @@ PlainWriter::PlainWriter(const std::string & path, const OutputOptions & options
 
 PlainWriter::~PlainWriter() = default;
 
+std::vector<fs::path>
+PlainWriter::GetReplacedFiles() const
+{
+  return ListReplacedFiles(ResolveOutput(m_Path), m_Options.Compress);
+}
+
 bool
 PlainWriter::WritesParts() const
 {

@@ -20,6 +20,9 @@ public:
   PlainWriter(const std::string & path, const OutputOptions & options, const WarningSink & warn);
   ~PlainWriter() override;
 
+  std::vector<std::filesystem::path>
+  GetReplacedFiles() const override;
+
   bool
   WritesParts() const override;
 

@@ -125,6 +125,12 @@ public:
     ApplyOverrides(m_Description, options, warn, false);
   }
 
+  std::vector<std::string>
+  GetFiles() const override
+  {
+    return { m_File.GetPath() };
+  }
+
   bool
   ReadsParts() const override
   {

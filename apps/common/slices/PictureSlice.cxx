@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "itk/Bitmap.h"
 #include "itk/JpegIntegrity.h"
+#include "itk/LibraryReason.h"
+#include "itk/PictureColours.h"
 #include "slices/SliceFile.h"
 #include "system/files/InputFile.h"
-#include "text/OneLineMessage.h"
 
 #include "itkJPEGImageIO.h"
 #include "itkPNGImageIO.h"
@@ -42,7 +43,12 @@ public:
     }
     catch (const std::exception & error)
     {
-      this->Fail("it is no " + format + " file, or it is damaged (" + MakeOneLine(error.what()) + ')');
+      this->Fail("it is no " + format + " file, or it is damaged (" + GetReason(error) + ')');
+    }
+    const std::string colourFault = FindColourFault(*m_ImageIO);
+    if (!colourFault.empty())
+    {
+      this->Fail(colourFault);
     }
     m_Page.Width = static_cast<std::uint32_t>(m_ImageIO->GetDimensions(0));
     m_Page.Height = static_cast<std::uint32_t>(m_ImageIO->GetDimensions(1));
@@ -94,7 +100,7 @@ public:
     }
     catch (const std::exception & error)
     {
-      this->Fail("it is damaged (" + MakeOneLine(error.what()) + ')');
+      this->Fail("it is damaged (" + GetReason(error) + ')');
     }
     const std::uint64_t pixelBytes = m_Page.GetPixelBytes();
     for (std::uint64_t y = 0; y < region.Height; ++y)

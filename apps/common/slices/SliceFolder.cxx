@@ -31,6 +31,12 @@ public:
     this->Describe(stack, options, warn);
   }
 
+  std::vector<std::string>
+  GetFiles() const override
+  {
+    return { m_Slices.Files.begin(), m_Slices.Files.end() };
+  }
+
   bool
   ReadsParts() const override
   {
@@ -95,6 +101,13 @@ SliceFolder::CheckSlices(const WarningSink & warn)
                  m_Slices.Files[0].filename().string() + " is " + m_Page.GetText() +
                  (page.IsInverted != m_Page.IsInverted ? " and differs in whether 0 is black" : "") +
                  ": slices of one size and type make a volume");
+    }
+    if (!page.IsTurnedLike(m_Page))
+    {
+      this->Fail(m_Slices.Files[number].filename().string() + " asks to be shown in another way (orientation " +
+                 std::to_string(page.Orientation) + ") than " + m_Slices.Files[0].filename().string() +
+                 " (orientation " + std::to_string(m_Page.Orientation) +
+                 "); save all of them turned as they are meant");
     }
     if (slice->GetStack().Spacing != stack.Spacing && !isScaleTold)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slices/SliceFolderWriter.h"
 #include "outputs/StagedFolder.h"
+#include "text/HeaderText.h"
 #include "tiff/TiffPageWriter.h"
 
 #include "NonOscillatorySubdivision/RunTiles.h"
@@ -24,6 +25,16 @@ HasNameOfSlice(const fs::path & folder, const std::string & name)
          digits().find_first_not_of("0123456789") == std::string::npos;
 }
 
+/** Whether macOS or Windows made a file to show the folder, or to keep what belongs to another file. */
+bool
+IsOfSystem(const fs::directory_entry & entry)
+{
+  const std::string name = ToLower(entry.path().filename().string());
+  std::error_code   error;
+  return fs::is_regular_file(entry.symlink_status(error)) &&
+         (name == ".ds_store" || name == "thumbs.db" || name == "desktop.ini" || name.rfind("._", 0) == 0);
+}
+
 class SliceFolderWriter : public VolumeWriter
 {
 public:
@@ -34,6 +45,12 @@ public:
     , m_Options(options)
     , m_Warn(std::move(warn))
   {}
+
+  std::vector<fs::path>
+  GetReplacedFiles() const override
+  {
+    return { m_Output };
+  }
 
   bool
   WritesParts() const override
@@ -213,6 +230,7 @@ SliceFolderWriter::Commit()
     this->Fail("it has " + std::to_string(m_Complete) + " of " + std::to_string(m_Slices) + " slices");
   }
   CheckOldSlices(m_Path, m_Output); // other programs may have written there meanwhile
+  KeepFilesOfSystems(m_Path, m_Output, m_Folder->GetPath());
   m_Folder->Commit();
   m_Folder.reset();
 }
@@ -240,6 +258,25 @@ NeedsBigTiff(const ImageDescription & description)
 }
 
 void
+KeepFilesOfSystems(const std::string & path, const fs::path & from, const fs::path & to)
+{
+  std::error_code error;
+  if (!fs::is_directory(from, error))
+  {
+    return;
+  }
+  for (const fs::directory_entry & entry : fs::directory_iterator(from))
+  {
+    if (IsOfSystem(entry) &&
+        !fs::copy_file(entry.path(), to / entry.path().filename(), fs::copy_options::overwrite_existing, error))
+    {
+      throw std::runtime_error("cannot write " + path + ": " + entry.path().filename().string() +
+                               " cannot be kept: " + error.message());
+    }
+  }
+}
+
+void
 CheckOldSlices(const std::string & path, const fs::path & folder)
 {
   const auto fail = [&path](const std::string & reason) {
@@ -257,6 +294,10 @@ CheckOldSlices(const std::string & path, const fs::path & folder)
   for (const fs::directory_entry & entry : fs::directory_iterator(folder))
   {
     const std::string name = entry.path().filename().string();
+    if (IsOfSystem(entry))
+    {
+      continue;
+    }
     if (!HasNameOfSlice(folder, name) || !fs::is_regular_file(entry.symlink_status(error)) ||
         !IsOwnTiff(entry.path().string()))
     {

@@ -26,7 +26,14 @@ GetSliceName(const std::filesystem::path & folder, std::uint64_t number, std::ui
 bool
 NeedsBigTiff(const ImageDescription & description);
 
-/** What is not an output of before stays; a name like that of a slice does not make it one.
+/** Copies the files that systems keep in folders of their own accord, such as .DS_Store, into the folder that replaces
+ * another one.
+ * \throw std::runtime_error */
+void
+KeepFilesOfSystems(const std::string & path, const std::filesystem::path & from, const std::filesystem::path & to);
+
+/** What is not an output of before, nor a file that systems keep in folders of their own accord, stays; a name like
+ * that of a slice does not make it one.
  * \param path what messages call the folder
  * \throw std::runtime_error if the folder holds anything else */
 void

@@ -61,6 +61,41 @@ FormatOf(const fs::path & file)
   return found == formats.end() ? "" : found->second;
 }
 
+/** How many numbers a name has. */
+std::size_t
+CountNumbers(const SplitName & name)
+{
+  return name.Digits.size() - (name.Digits.back().empty() ? 1 : 0);
+}
+
+bool
+IsNamedLike(const SplitName & a, const SplitName & b)
+{
+  return a.Texts == b.Texts && CountNumbers(a) == CountNumbers(b) && FormatOf(a.File) == FormatOf(b.File);
+}
+
+/** Takes out a picture that is no slice: where all but one are named alike, and that one lacks their number, as the
+ * preview NAME_rec_spr.bmp beside NAME_rec0000.bmp and on. What has their name alone may be the first slice, and stays.
+ */
+void
+TakeOutPreview(const fs::path & folder, std::vector<SplitName> & names, const WarningSink & warn)
+{
+  for (auto odd = names.begin(); names.size() > 2 && odd != names.end(); ++odd)
+  {
+    const SplitName & other = odd == names.begin() ? names.back() : names.front();
+    const auto        alike =
+      std::count_if(names.begin(), names.end(), [&other](const SplitName & name) { return IsNamedLike(name, other); });
+    const bool isAlone = static_cast<std::size_t>(alike) + 1 == names.size() && !IsNamedLike(*odd, other);
+    if (isAlone && CountNumbers(*odd) < CountNumbers(other) && odd->Texts != other.Texts)
+    {
+      warn("the picture " + odd->File.filename().string() + " of the folder " + folder.string() +
+           " has no number as the slices have: it is left aside");
+      names.erase(odd);
+      return;
+    }
+  }
+}
+
 std::string
 WithoutZeros(const std::string & digits)
 {
@@ -188,6 +223,7 @@ ListSlices(const fs::path & folder, const WarningSink & warn)
   }
   // The messages depend on the names alone, not on the order in which the file system lists them.
   std::sort(names.begin(), names.end(), [](const auto & a, const auto & b) { return a.File < b.File; });
+  TakeOutPreview(folder, names, warn);
   SliceList list{ FormatOf(names.front().File), {} };
   for (const SplitName & name : names)
   {

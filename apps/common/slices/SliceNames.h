@@ -16,7 +16,8 @@ struct SliceList
 };
 
 /** Lists the slices of a folder: the files whose names end as those of one image format and are alike but for one
- * number. Other files, hidden ones and folders are passed over. Gaps in the numbers are warned of.
+ * number. Other files, hidden ones and folders are passed over. Gaps in the numbers, and a lone picture without a
+ * number, which is left aside, are warned of.
  * \throw std::runtime_error if there are several formats or series, or two files of one number */
 SliceList
 ListSlices(const std::filesystem::path & folder, const WarningSink & warn);

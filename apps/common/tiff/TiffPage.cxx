@@ -128,6 +128,11 @@ CheckCompression(TiffPage & page, const TiffHandle & tiff, const std::string & n
 {
   const auto compression = GetTag<std::uint16_t>(tiff, TIFFTAG_COMPRESSION);
   page.IsCompressed = compression != COMPRESSION_NONE;
+  if (compression == COMPRESSION_JPEG && page.Bits != 8)
+  {
+    tiff.Fail(name + " is compressed as JPEG of " + std::to_string(page.Bits) +
+              " bits, which the TIFF library does not read; save it with another compression");
+  }
   if (TIFFIsCODECConfigured(compression) == 0)
   {
     const TIFFCodec * codec = TIFFFindCODEC(compression);
@@ -239,6 +244,8 @@ DescribeTiffPage(const TiffHandle & tiff, const std::string & name, std::uint64_
   }
   page.IsTiled = TIFFIsTiled(tiff) != 0;
   page.Orientation = GetTag<std::uint16_t>(tiff, TIFFTAG_ORIENTATION);
+  std::uint16_t orientation = 0;
+  page.SaysOrientation = TIFFGetField(tiff, TIFFTAG_ORIENTATION, &orientation) != 0;
   SetComponent(page, tiff, name);
   SetKind(page, tiff, name);
   CheckCompression(page, tiff, name);

@@ -25,6 +25,7 @@ struct TiffPage
   bool                          IsTiled = false;
   bool                          IsCompressed = false;
   std::uint16_t                 Orientation = 1; // 1: rows from top to bottom, columns from left to right
+  bool                          SaysOrientation = false;
 
   /** Whether the pixels of two pages make one volume. */
   bool
@@ -32,6 +33,13 @@ struct TiffPage
   {
     return Width == other.Width && Height == other.Height && Component == other.Component &&
            NumberOfComponents == other.NumberOfComponents && Kind == other.Kind && HasColourMap == other.HasColourMap;
+  }
+
+  /** Whether the rows and columns of two pages, as they are stored, point the same way. */
+  bool
+  IsTurnedLike(const TiffPage & other) const
+  {
+    return Orientation == other.Orientation;
   }
 
   std::uint64_t

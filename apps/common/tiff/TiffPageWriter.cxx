@@ -25,6 +25,16 @@ GetSampleFormat(ElementType type)
   });
 }
 
+/** Three or four components of whole numbers without a sign are colours to programs that show them, as ITK has it. */
+bool
+IsColour(const ImageDescription & description)
+{
+  const bool isVector = description.Kind == VoxelKind::Vector &&
+                        (description.NumberOfComponents == 3 || description.NumberOfComponents == 4) &&
+                        (description.Component == ElementType::UInt8 || description.Component == ElementType::UInt16);
+  return description.Kind == VoxelKind::Rgb || description.Kind == VoxelKind::Rgba || isVector;
+}
+
 // Strips of this size are compressed well and quickly read in part.
 constexpr std::uint64_t StripBytes = 1 << 18;
 
@@ -57,7 +67,7 @@ TiffPageWriter::BeginPage(const std::string & text)
 {
   const ImageGrid &  grid = m_Description.Grid;
   const unsigned int components = m_Description.NumberOfComponents;
-  const bool         isColour = m_Description.Kind == VoxelKind::Rgb || m_Description.Kind == VoxelKind::Rgba;
+  const bool         isColour = IsColour(m_Description);
   const auto         bytes = itk::Subdivision::SizeOf(m_Description.Component);
   this->SetTag(TIFFTAG_IMAGEWIDTH, static_cast<int>(grid.Size[0]));
   this->SetTag(TIFFTAG_IMAGELENGTH, static_cast<int>(grid.Size[1]));
@@ -71,8 +81,7 @@ TiffPageWriter::BeginPage(const std::string & text)
   const unsigned int named = isColour ? 3 : 1;
   if (components > named)
   {
-    std::vector<std::uint16_t> extra(
-      components - named, m_Description.Kind == VoxelKind::Rgba ? EXTRASAMPLE_UNASSALPHA : EXTRASAMPLE_UNSPECIFIED);
+    std::vector<std::uint16_t> extra(components - named, isColour ? EXTRASAMPLE_UNASSALPHA : EXTRASAMPLE_UNSPECIFIED);
     TIFFSetField(m_Tiff, TIFFTAG_EXTRASAMPLES, static_cast<int>(extra.size()), extra.data());
   }
   this->SetTag(TIFFTAG_COMPRESSION, m_Options.Compress ? COMPRESSION_ADOBE_DEFLATE : COMPRESSION_NONE);
@@ -155,7 +164,8 @@ IsOwnTiff(const std::string & path)
 std::string
 MakeImageJText(const ImageDescription & description, std::uint64_t slices)
 {
-  const bool isKnown = description.Kind == VoxelKind::Scalar || description.Kind == VoxelKind::Rgb;
+  const bool isRgb = IsColour(description) && description.NumberOfComponents == 3;
+  const bool isKnown = description.Kind == VoxelKind::Scalar || isRgb;
   if (!isKnown || description.Grid.Size.size() < 3)
   {
     return "";

@@ -48,6 +48,12 @@ public:
     this->Warn(stack, warn);
   }
 
+  std::vector<std::string>
+  GetFiles() const override
+  {
+    return { m_File.GetPath() };
+  }
+
   bool
   ReadsParts() const override
   {
@@ -66,6 +72,8 @@ public:
 private:
   void
   ReadPages();
+  void
+  ComparePage(const TiffPage & page, const std::string & name);
   TiffStack
   MakeStack();
   void
@@ -85,6 +93,9 @@ private:
   TiffHandle                 m_Tiff;
   std::vector<std::uint64_t> m_Pages; // offsets of their directories
   TiffPage                   m_First;
+  TiffStack                  m_FirstScale; // what the first page's resolution says
+  bool                       m_IsInverted = false;
+  bool                       m_HasOtherScale = false;
   std::vector<std::uint64_t> m_Slices; // the pages, or contiguous planes, that are read
   bool                       m_IsContiguous = false;
   std::uint64_t              m_DataOffset = 0; // of contiguous planes
@@ -101,15 +112,7 @@ TiffReader::ReadPages()
     {
       const std::string name = "its page " + std::to_string(number);
       const TiffPage    page = DescribeTiffPage(m_Tiff, name, m_File.GetSize());
-      if (m_Pages.empty())
-      {
-        m_First = page;
-      }
-      else if (!page.HasPixelsLike(m_First))
-      {
-        m_Tiff.Fail(name + " is " + page.GetText() + ", those before are " + m_First.GetText() +
-                    ": pages of one size and type make a volume");
-      }
+      this->ComparePage(page, name);
       m_Pages.push_back(TIFFCurrentDirOffset(m_Tiff));
       m_LargestStrile =
         std::max<std::uint64_t>(m_LargestStrile, page.IsTiled ? TIFFTileSize64(m_Tiff) : TIFFStripSize64(m_Tiff));
@@ -129,6 +132,32 @@ TiffReader::ReadPages()
     m_Tiff.Fail("it holds thumbnails and masks alone");
   }
   TIFFSetSubDirectory(m_Tiff, m_Pages.front());
+}
+
+/** Compares the current page with the first one. */
+void
+TiffReader::ComparePage(const TiffPage & page, const std::string & name)
+{
+  TiffStack scale;
+  CompleteTiffSpacing(scale, m_Tiff);
+  if (m_Pages.empty())
+  {
+    m_First = page;
+    m_FirstScale = scale;
+  }
+  else if (!page.HasPixelsLike(m_First))
+  {
+    m_Tiff.Fail(name + " is " + page.GetText() + ", those before are " + m_First.GetText() +
+                ": pages of one size and type make a volume");
+  }
+  else if (page.SaysOrientation && !page.IsTurnedLike(m_First)) // some programs say it once for all pages
+  {
+    m_Tiff.Fail(name + " asks to be shown in another way (orientation " + std::to_string(page.Orientation) +
+                ") than those before (orientation " + std::to_string(m_First.Orientation) +
+                "); save all of them turned as they are meant");
+  }
+  m_IsInverted = m_IsInverted || page.IsInverted;
+  m_HasOtherScale = m_HasOtherScale || (scale.Spacing[0] && scale.Spacing != m_FirstScale.Spacing);
 }
 
 /** The planes as the file's description orders them. */
@@ -232,6 +261,7 @@ void
 TiffReader::Describe(TiffStack & stack, const InputOptions & options, const WarningSink & warn)
 {
   const bool isVolume = m_Slices.size() > 1;
+  const bool isInDescription = stack.Spacing[0].has_value();
   CompleteTiffSpacing(stack, m_Tiff);
   m_HoldsInt16 = stack.HoldsInt16 && m_First.Component == ElementType::UInt16;
 
@@ -243,6 +273,10 @@ TiffReader::Describe(TiffStack & stack, const InputOptions & options, const Warn
   }
   const WarningSink silent = [](const std::string &) {};
   grid.Spacing = GetTiffSpacing(stack, m_Tiff.GetName(), isVolume, options.Spacing ? silent : warn);
+  if (m_HasOtherScale && !isInDescription && !options.Spacing)
+  {
+    warn(m_Tiff.GetName() + " has pages of other resolutions than the first one, whose resolution is taken for all");
+  }
   grid.Origin.assign(grid.Size.size(), 0.0);
   for (std::size_t axis = 0; axis < grid.Size.size(); ++axis)
   {
@@ -269,7 +303,7 @@ TiffReader::Warn(const TiffStack & stack, const WarningSink & warn) const
   {
     warn(name + " has a colour table for display: its values are read without it");
   }
-  if (m_First.IsInverted)
+  if (m_IsInverted)
   {
     warn(name + " has 0 as white: its values are turned round, so that 0 is black");
   }

@@ -67,6 +67,12 @@ CompleteTiffSpacing(TiffStack & stack, TIFF * tiff)
       own = GetMillimetres(description.substr(begin + 6, description.find_first_of("\r\n", begin + 1) - begin - 6));
     }
   }
+  // A resolution without a unit says at most how wide pixels are to their height; ImageJ's own is in pixels.
+  if (!own && unit == RESUNIT_NONE && !stack.IsImageJ)
+  {
+    stack.HasOtherUnit = *x != 1.0 || *y != 1.0;
+    return;
+  }
   if (!own && (IsForPrinting(*x, unit) || IsForPrinting(*y, unit)))
   {
     return;
@@ -81,6 +87,10 @@ std::vector<double>
 GetTiffSpacing(const TiffStack & stack, const std::string & name, bool isVolume, const WarningSink & warn)
 {
   std::vector<double> spacing = { stack.Spacing[0].value_or(1.0), stack.Spacing[1].value_or(1.0) };
+  if (stack.HasOtherUnit && !stack.Spacing[0])
+  {
+    warn(name + " has a resolution without a unit, which says no spacing: 1 is assumed; --spacing says it");
+  }
   if (isVolume)
   {
     const bool isPlaneKnown = stack.Spacing[0].has_value() && stack.Spacing[1].has_value();

@@ -17,6 +17,7 @@ struct TiffStack
   std::vector<std::uint64_t>           Planes; // where plane (frame * Slices + slice) * Channels + channel lies
   std::array<std::optional<double>, 3> Spacing;
   bool                                 IsInMillimetres = false; // else the file does not say what the unit is
+  bool                                 HasOtherUnit = false;    // a resolution without a unit: it says no spacing
   bool                                 IsImageJ = false;
   bool                                 HoldsInt16 = false;     // ImageJ's calibration turns uint16 into int16
   bool                                 HasCalibration = false; // another one, of the values

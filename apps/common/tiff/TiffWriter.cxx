@@ -20,6 +20,12 @@ public:
     , m_Warn(std::move(warn))
   {}
 
+  std::vector<std::filesystem::path>
+  GetReplacedFiles() const override
+  {
+    return { ResolveOutput(m_Path) };
+  }
+
   bool
   WritesParts() const override
   {

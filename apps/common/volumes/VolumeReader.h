@@ -47,6 +47,10 @@ public:
   void
   OverrideGrid(const std::string & path, const InputOptions & options, const WarningSink & warn);
 
+  /** All files that the image is read from. */
+  virtual std::vector<std::string>
+  GetFiles() const = 0;
+
   /** Whether a part is read without the rest: else the reader keeps the whole image after the first Read(). */
   virtual bool
   ReadsParts() const = 0;

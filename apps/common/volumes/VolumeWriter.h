@@ -5,6 +5,8 @@
 #include "volumes/ImageDescription.h"
 
 #include <cstdint>
+#include <filesystem>
+#include <vector>
 
 /** How the user wants the output written. */
 struct OutputOptions
@@ -20,6 +22,12 @@ class VolumeWriter
 {
 public:
   virtual ~VolumeWriter() = default;
+
+  /** The output, and whatever else gives way to it when it gets its name, be it there or not; a folder with all that it
+   * holds. Known before Begin().
+   * \throw std::runtime_error */
+  virtual std::vector<std::filesystem::path>
+  GetReplacedFiles() const = 0;
 
   /** Whether parts are written as they come, each a box that continues the one before (complete planes, or complete
    * rows of one plane); else all of the image must come in one Write(). */

@@ -79,11 +79,20 @@ DieOf(int signal)
   _exit(128 + signal);
 }
 
-/** HDF5's C++ classes throw in their destructors when the disk is full. */
+/** HDF5's C++ classes throw in their destructors when the disk is full, or a file that is read is damaged. */
 [[noreturn]] void
 DieOfAnException()
 {
   const std::string output = GetRunRecord().UnfinishedOutput.Get();
+  const std::string task = GetRunRecord().Task.Get();
+  const std::string temporary = GetRunRecord().TemporaryFolder.Get();
+  // What was written is read back.
+  const bool isOfOutput = !temporary.empty() && task.find(temporary) != std::string::npos;
+  if (task.rfind("cannot read ", 0) == 0 && !isOfOutput)
+  {
+    Tell(task + ": the image library failed; the file is damaged");
+    EndRun(1);
+  }
   if (output.empty())
   {
     std::abort();

@@ -81,7 +81,7 @@ if(CASTXML_EXECUTABLE)
   add_python_test(headers/wrapping_test.py)
   if(NonOscillatorySubdivision_PYTHON)
     set_tests_properties(wrapping_test PROPERTIES ENVIRONMENT
-      "CASTXML=${CASTXML_EXECUTABLE};CXX=${CMAKE_CXX_COMPILER};INCLUDE_DIRECTORIES=$<JOIN:${include_directories},:>"
+      "CASTXML=${CASTXML_EXECUTABLE};CXX=${CMAKE_CXX_COMPILER};CXXFLAGS=${CMAKE_CXX_FLAGS};INCLUDE_DIRECTORIES=$<JOIN:${include_directories},:>"
     )
   endif()
 else()

@@ -2,10 +2,8 @@
 // With every threader of ITK and more work units than processors, progress is told of to the end by the thread that
 // updates the filter, and an abort by an observer or by another thread ends the run.
 
+#include "PoolMultiThreader.h"
 #include "SubdivisionCommonFilters.h"
-
-#include "itkPlatformMultiThreader.h"
-#include "itkPoolMultiThreader.h"
 
 #include <algorithm>
 #include <atomic>
@@ -46,7 +44,7 @@ AllThreadings()
   std::vector<Threading> threadings;
   for (const unsigned int units : { 1u, 2u, 64u })
   {
-    threadings.push_back({ "pool", Make<itk::PoolMultiThreader>, units });
+    threadings.push_back({ "pool", Make<PoolMultiThreader>, units });
     threadings.push_back({ "platform", Make<itk::PlatformMultiThreader>, units });
     threadings.push_back({ "the default", Make<itk::MultiThreaderBase>, units });
   }

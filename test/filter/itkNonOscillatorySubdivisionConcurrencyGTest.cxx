@@ -3,11 +3,10 @@
 // Many at once: filters of different schemes, targets and multi-threaders in several threads of one process, and one
 // filter whose parameters change between updates, have the bytes of filters that run alone.
 
+#include "PoolMultiThreader.h"
 #include "SubdivisionCommonFilters.h"
 
 #include "itkLabelSubdivisionImageFilter.h"
-#include "itkPlatformMultiThreader.h"
-#include "itkPoolMultiThreader.h"
 #ifdef ITK_USE_TBB
 #  include "itkTBBMultiThreader.h"
 #endif
@@ -26,7 +25,7 @@ using Labels = itk::Image<unsigned char, 3>;
 std::vector<ThreaderEnum>
 GetThreaders()
 {
-  std::vector<ThreaderEnum> threaders{ ThreaderEnum::Platform, ThreaderEnum::Pool };
+  std::vector<ThreaderEnum> threaders{ ThreaderEnum::Platform, PoolThreader };
 #ifdef ITK_USE_TBB
   threaders.push_back(ThreaderEnum::TBB);
 #endif
@@ -50,7 +49,7 @@ MakeFilter(const ThreaderEnum threader)
       break;
 #endif
     default:
-      filter->SetMultiThreader(itk::PoolMultiThreader::New());
+      filter->SetMultiThreader(PoolMultiThreader::New());
   }
   return filter;
 }
@@ -172,7 +171,7 @@ ExpectSameAtOnce(const std::vector<Job> & jobs)
 
 TEST(NonOscillatorySubdivisionConcurrency, ManyFiltersInManyThreads)
 {
-  ExpectSameAtOnce(MakeJobs({ ThreaderEnum::Platform, ThreaderEnum::Pool }));
+  ExpectSameAtOnce(MakeJobs({ ThreaderEnum::Platform, PoolThreader }));
 }
 
 TEST(NonOscillatorySubdivisionConcurrency, ManyFiltersOfTBB)
@@ -189,7 +188,7 @@ TEST(NonOscillatorySubdivisionConcurrency, ManyFiltersOfTBB)
 TEST(NonOscillatorySubdivisionConcurrency, ParametersChangeBetweenUpdates)
 {
   Shared                           shared;
-  const auto                       jobs = MakeJobs({ ThreaderEnum::Pool });
+  const auto                       jobs = MakeJobs({ PoolThreader });
   std::vector<FloatImage::Pointer> expected;
   for (const Job & job : jobs)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whatever region is asked for, however the image is streamed and however many work units share it: the same bytes.
 
+#include "PoolMultiThreader.h"
 #include "SubdivisionCommonFilters.h"
 #include "SubdivisionRegionSource.h"
 
@@ -191,7 +192,7 @@ TEST(NonOscillatorySubdivisionRegions, AnyMultiThreader)
   Pipeline<FloatImage> pipeline({ 0, 0, 0 }, { 50, 31, 22 }, SchemeEnum::NonOscillatory, BoundaryKind::ZeroFlux);
   const auto           whole = Whole(pipeline);
   using ThreaderEnum = itk::MultiThreaderBaseEnums::Threader;
-  for (const ThreaderEnum kind : { ThreaderEnum::Platform, ThreaderEnum::Pool })
+  for (const ThreaderEnum kind : { ThreaderEnum::Platform, PoolThreader })
   {
     const auto former = itk::MultiThreaderBase::GetGlobalDefaultThreader();
     itk::MultiThreaderBase::SetGlobalDefaultThreader(kind);

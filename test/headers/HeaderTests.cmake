@@ -8,12 +8,13 @@ mark_as_advanced(CASTXML_EXECUTABLE)
 set(include_directories $<TARGET_PROPERTY:NonOscillatorySubdivisionGTestDriver,INCLUDE_DIRECTORIES>)
 
 if(CASTXML_EXECUTABLE)
+  separate_arguments(compiler_flags UNIX_COMMAND "${CMAKE_CXX_FLAGS}")
   # The standard library of GCC relies on sized deallocation, which the Clang within castxml has on demand only.
   add_test(
     NAME NonOscillatorySubdivisionHeaders.ParseWithCastXML
     COMMAND "${CASTXML_EXECUTABLE}" --castxml-output=1 --castxml-start _wrapping_
       --castxml-cc-gnu "(" "${CMAKE_CXX_COMPILER}" -std=c++17 ")" -std=c++17 -fsized-deallocation
-      -DITK_WRAPPING_PARSER -DITK_MANUAL_INSTANTIATION
+      ${compiler_flags} -DITK_WRAPPING_PARSER -DITK_MANUAL_INSTANTIATION
       "-I$<JOIN:${include_directories},;-I>"
       -o "${CMAKE_CURRENT_BINARY_DIR}/ParsedHeaders.xml" "${CMAKE_CURRENT_LIST_DIR}/ParsedHeaders.cxx"
     COMMAND_EXPAND_LISTS

@@ -2,12 +2,13 @@
 """The wrapping for ITK's Python as far as it can be tested without an ITK that is wrapped: what each file wrapping/*.wrap
 names is instantiated and parsed by castxml, which is the first thing that ITK's wrapping does with it.
 
-Reads the environment: CASTXML, CXX, and INCLUDE_DIRECTORIES with colons between.
+Reads the environment: CASTXML, CXX, CXXFLAGS, and INCLUDE_DIRECTORIES with colons between.
 """
 
 import itertools
 import os
 import re
+import shlex
 import subprocess
 import tempfile
 import unittest
@@ -66,6 +67,7 @@ def parse(text):
         # The standard library of GCC relies on sized deallocation, which the Clang within castxml has on demand only.
         command = [os.environ["CASTXML"], "--castxml-output=1", "--castxml-start", "_wrapping_", "--castxml-cc-gnu"]
         command += ["(", os.environ["CXX"], "-std=c++17", ")", "-std=c++17", "-fsized-deallocation"]
+        command += shlex.split(os.environ.get("CXXFLAGS", ""))
         command += ["-DITK_WRAPPING_PARSER", "-DITK_MANUAL_INSTANTIATION", *includes, "-o", parsed, program]
         result = subprocess.run(command, capture_output=True, text=True)
         if result.returncode != 0:

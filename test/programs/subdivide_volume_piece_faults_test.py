@@ -13,7 +13,7 @@ import subprocess
 import time
 import unittest
 
-from subdivide_volume_case import PROGRAM, ProgramTest, noise
+from subdivide_volume_case import PROGRAM, ProgramTest, noise, skip_under_sanitizers
 from subdivide_volume_files import meta_header, write_meta
 
 OUTPUTS = ("out.mha", "out.mhd", "slices/")
@@ -174,19 +174,25 @@ class PieceFaults(ProgramTest):
     @unittest.skipUnless(shutil.which("strace"), "for want of strace")
     def test_the_disk_is_full_for_one_of_them(self):
         for name in OUTPUTS:
-            before = self.make_whole(name)
-            call = "write" if name == "slices/" else "fallocate"
-            result = subprocess.run(["strace", "-f", "-qq", "-o", "/dev/null", "-e", f"trace={call}", "-e",
-                                     f"inject={call}:error=ENOSPC:when=1", *self.get_command("2/3", name, "--quiet")],
-                                    capture_output=True, text=True, check=False)
-            self.assertEqual((result.returncode, len(result.stderr.splitlines())), (1, 1), result.stderr)
-            for k in (1, 3):
-                self.assertEqual(self.piece(f"{k}/3", name).returncode, 0)
-            self.assertEqual(self.piece("status", name).stdout, "missing 2 of 3\n")
-            after = contents(self.path("pieces"))
-            self.assertEqual({key: after[key] for key in before}, before)
-            self.assertEqual(self.piece("2/3", name).returncode, 0)
-            self.assert_complete(name)
+            with self.subTest(name):
+                self.check_a_full_disk(name)
+
+    def check_a_full_disk(self, name):
+        call = "write" if name == "slices/" else "fallocate"
+        if call == "write":
+            skip_under_sanitizers(self, "sanitizers write to pipes of their own")
+        before = self.make_whole(name)
+        result = subprocess.run(["strace", "-f", "-qq", "-o", "/dev/null", "-e", f"trace={call}", "-e",
+                                 f"inject={call}:error=ENOSPC:when=1", *self.get_command("2/3", name, "--quiet")],
+                                capture_output=True, text=True, check=False)
+        self.assertEqual((result.returncode, len(result.stderr.splitlines())), (1, 1), result.stderr)
+        for k in (1, 3):
+            self.assertEqual(self.piece(f"{k}/3", name).returncode, 0)
+        self.assertEqual(self.piece("status", name).stdout, "missing 2 of 3\n")
+        after = contents(self.path("pieces"))
+        self.assertEqual({key: after[key] for key in before}, before)
+        self.assertEqual(self.piece("2/3", name).returncode, 0)
+        self.assert_complete(name)
 
     def test_the_folder_of_pieces_goes_in_the_middle(self):
         """Removed by hand, while one process is at work and perhaps another has begun anew: it fails, and the others'

@@ -3,10 +3,10 @@
 #include "headers/DataOwners.h"
 #include "itk/Bitmap.h"
 #include "itk/FileIntegrity.h"
+#include "itk/ItkDescription.h"
 #include "itk/JpegIntegrity.h"
 #include "itk/LibraryReason.h"
 #include "itk/PictureColours.h"
-#include "itk/PixelComponent.h"
 #include "itk/VtkFile.h"
 #include "nifti/NiftiFiles.h"
 #include "nifti/NiftiHeader.h"
@@ -14,10 +14,8 @@
 #include "system/process/WatchedTask.h"
 #include "text/HeaderText.h"
 #include "volumes/BoxRuns.h"
-#include "volumes/DescriptionCheck.h"
 
 #include "itkImageFileReader.h" // registers the formats
-#include "itkMetaDataObject.h"
 
 #include <algorithm>
 #include <cstring>
@@ -26,90 +24,6 @@
 namespace
 {
 using itk::Subdivision::Box;
-using itk::Subdivision::ElementType;
-
-/** The formats' own names for themselves are their classes'. */
-std::string
-GetFormatName(const itk::ImageIOBase & imageIO)
-{
-  const std::string name = imageIO.GetNameOfClass();
-  const std::string suffix = "ImageIO";
-  const auto        end = name.rfind(suffix);
-  const std::string format = end == std::string::npos ? name : name.substr(0, end);
-  return format == "Nifti" ? "NIfTI" : format == "Nrrd" ? "NRRD" : format;
-}
-
-VoxelKind
-GetKind(const itk::ImageIOBase & imageIO)
-{
-  switch (imageIO.GetPixelType())
-  {
-    case itk::IOPixelEnum::RGB:
-      return VoxelKind::Rgb;
-    case itk::IOPixelEnum::RGBA:
-      return VoxelKind::Rgba;
-    case itk::IOPixelEnum::COMPLEX:
-      return VoxelKind::Complex;
-    case itk::IOPixelEnum::SYMMETRICSECONDRANKTENSOR:
-    case itk::IOPixelEnum::DIFFUSIONTENSOR3D:
-      return VoxelKind::SymmetricTensor;
-    default:
-      return imageIO.GetNumberOfComponents() == 1 ? VoxelKind::Scalar : VoxelKind::Vector;
-  }
-}
-
-std::map<std::string, std::string>
-GetMetadata(const itk::MetaDataDictionary & dictionary)
-{
-  std::map<std::string, std::string> metadata;
-  for (const std::string & key : dictionary.GetKeys())
-  {
-    std::string value;
-    if (itk::ExposeMetaData<std::string>(dictionary, key, value))
-    {
-      metadata[key] = value;
-    }
-  }
-  return metadata;
-}
-
-ImageDescription
-Describe(const std::string & path, const itk::ImageIOBase & imageIO)
-{
-  ImageDescription description;
-  for (unsigned int axis = 0; axis < imageIO.GetNumberOfDimensions(); ++axis)
-  {
-    description.Grid.Size.push_back(imageIO.GetDimensions(axis));
-    description.Grid.Spacing.push_back(imageIO.GetSpacing(axis));
-    description.Grid.Origin.push_back(imageIO.GetOrigin(axis));
-    description.Grid.Directions.push_back(imageIO.GetDirection(axis));
-  }
-  description.Component = WithComponentType(
-    imageIO.GetComponentType(), [](auto value) { return itk::Subdivision::ElementTypeOf<decltype(value)>(); });
-  description.NumberOfComponents = imageIO.GetNumberOfComponents();
-  description.Kind = GetKind(imageIO);
-  description.Format = GetFormatName(imageIO);
-  description.Metadata = GetMetadata(imageIO.GetMetaDataDictionary());
-  CheckDescription(path, description);
-  return description;
-}
-
-NiftiHeader
-ReadNiftiHeader(const std::string & path)
-{
-  return NiftiHeader(IsNiftiPair(path) ? FindNiftiPair(path).Header : path);
-}
-
-/** Before version 5.4, ITK's reader of NIfTI puts the spacing in space alone into millimetres. */
-void
-CompleteUnits(const std::string & path, const itk::ImageIOBase & imageIO, ImageGrid & grid)
-{
-  constexpr bool isRestLeft = ITK_VERSION_MAJOR < 5 || (ITK_VERSION_MAJOR == 5 && ITK_VERSION_MINOR < 4);
-  if (isRestLeft && std::string(imageIO.GetNameOfClass()) == "NiftiImageIO")
-  {
-    ReadNiftiHeader(path).CompleteUnits(grid);
-  }
-}
 
 /** Whether ITK's reader of the format reads a region right, without the rest. */
 bool
@@ -276,8 +190,7 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   {
     FailToRead(path, colourFault);
   }
-  m_Description = Describe(path, *m_ImageIO);
-  CompleteUnits(path, *m_ImageIO, m_Description.Grid);
+  m_Description = DescribeByItk(path, *m_ImageIO);
   m_ReadsParts = ReadsRegions(*m_ImageIO);
   CallLibrary(path, [&] { CheckFileIsWhole(path, *m_ImageIO); });
   if (IsVtkText(*m_ImageIO))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nifti/NiftiHeader.h"
+#include "nifti/NiftiFiles.h"
 #include "text/HeaderText.h"
 
 #include "itk_zlib.h"
@@ -336,4 +337,10 @@ NiftiHeader::GetPlacement(const ImageGrid & grid) const
     return distance;
   };
   return getDistance(this->GetMatrix()) < getDistance(this->GetQuaternionMatrix()) ? "sform" : "qform";
+}
+
+NiftiHeader
+ReadNiftiHeader(const std::string & path)
+{
+  return NiftiHeader(IsNiftiPair(path) ? FindNiftiPair(path).Header : path);
 }

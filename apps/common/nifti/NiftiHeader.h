@@ -109,4 +109,8 @@ private:
   bool                         m_IsCompressed = false;
 };
 
+/** The header of an image, which may be named by the file of its voxels. */
+NiftiHeader
+ReadNiftiHeader(const std::string & path);
+
 #endif

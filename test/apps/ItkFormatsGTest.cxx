@@ -104,6 +104,24 @@ TEST(ItkFormatsLimits, WhatIsLostIsSaid)
   EXPECT_NE(WriteAndRead(folder / "a.nii", micrometres).find("the unit um"), std::string::npos);
 }
 
+// Neither image could be read any more.
+TEST(ItkFormatsLimits, APairIsNotPutBesideACompressedOne)
+{
+  for (const std::string present : { "a.hdr", "a.img", "a.hdr.gz", "a.img.gz" })
+  {
+    const TestFolder folder;
+    folder.WriteFile(present, "another image's");
+    const bool isCompressed = present.size() > 5;
+    for (const std::string & name :
+         isCompressed ? std::vector<std::string>{ "a.hdr", "a.img" } : std::vector<std::string>{ "a.img.gz" })
+    {
+      const auto writer = CreateVolume(folder / name, {}, [](const std::string &) {});
+      const auto error = GetError([&] { writer->Begin(MakeUpright({ 9, 7, 5 }, ElementType::UInt8)); });
+      EXPECT_NE(error.find("which of both"), std::string::npos) << present << ' ' << name << ": " << error;
+    }
+  }
+}
+
 TEST(ItkFormatsLimits, WhatCannotBeHeldIsRefusedBeforeAnythingIsComputed)
 {
   const TestFolder folder;
@@ -117,6 +135,10 @@ TEST(ItkFormatsLimits, WhatCannotBeHeldIsRefusedBeforeAnythingIsComputed)
             std::string::npos);
   EXPECT_NE(getError("a.gipl", MakeUpright({ 65536, 2, 2 }, ElementType::UInt8)).find("up to 65535"),
             std::string::npos);
+  auto colours = MakeUpright({ 9, 7, 5 }, ElementType::UInt8);
+  colours.NumberOfComponents = 3;
+  colours.Kind = VoxelKind::Rgb;
+  EXPECT_NE(getError("a.gipl", colours).find("there: its format cannot hold such voxels"), std::string::npos);
   EXPECT_NE(getError("a.png", MakeUpright({ 9, 7, 5 }, ElementType::UInt8)), "");
   EXPECT_NE(getError("a.png", MakeUpright({ 9, 7 }, ElementType::Float)), "");
   EXPECT_NE(getError("a.vtk", MakeUpright({ 9, 7, 5, 3 }, ElementType::UInt8)), "");

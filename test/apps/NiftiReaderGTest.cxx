@@ -293,6 +293,28 @@ TEST(NiftiReader, PlacementsThatAreNotFiniteAreRefused)
   EXPECT_EQ(getError(254, 256, nan), "");
 }
 
+// Each reader would make something else of them.
+TEST(NiftiReader, SlopesThatAreNotFiniteAreRefused)
+{
+  const TestFolder folder;
+  constexpr float  nan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float  infinity = std::numeric_limits<float>::infinity();
+  const auto       getError = [&folder](const float slope, const float intercept) {
+    NiftiBytes file(4, 2, false);
+    file.SetSize({ 5, 4, 3, 2 });
+    file.Put(112, slope);
+    file.Put(116, intercept);
+    file.PutVoxels(MakeNumbers<std::int16_t>());
+    folder.WriteFile("a.nii", file.GetText());
+    return GetError([&] { Open(folder / "a.nii"); });
+  };
+  EXPECT_TRUE(Contains(getError(nan, 5.0f), "not finite"));
+  EXPECT_TRUE(Contains(getError(2.0f, nan), "not finite"));
+  EXPECT_TRUE(Contains(getError(2.0f, infinity), "not finite"));
+  EXPECT_TRUE(Contains(getError(-infinity, 3.0f), "not finite"));
+  EXPECT_EQ(getError(nan, 0.0f), ""); // as some programs write that there is none
+}
+
 // Voxels of a VTK file that would be such a placement.
 TEST(NiftiReader, OtherFormatsHaveNoSuchPlacement)
 {

@@ -11,6 +11,7 @@
 #include "tiff/TiffReader.h"
 #include "tiff/TiffWriter.h"
 
+#include <cmath>
 #include <filesystem>
 
 namespace
@@ -53,8 +54,14 @@ OpenNifti(const std::string & path, const InputOptions & options, const WarningS
     warn(path + " has two placements that differ, a qform and a sform: the " +
          header.GetPlacement(reader->GetDescription().Grid) + " is taken");
   }
+  const auto rescaling = header.GetRescaling();
+  if (rescaling && !(std::isfinite(rescaling->first) && std::isfinite(rescaling->second)))
+  {
+    FailToRead(path,
+               "its slope or intercept (scl_slope, scl_inter) is not finite; set them to 1 and 0 if there is none");
+  }
   auto plain = OpenPlainNifti(header, files, reader->GetDescription());
-  if (plain == nullptr && header.GetRescaling() && reader->GetDescription().NumberOfComponents > 1)
+  if (plain == nullptr && rescaling && reader->GetDescription().NumberOfComponents > 1)
   {
     FailToRead(path,
                "its voxels have several components and a slope, which are read right where they are vectors in an "

@@ -145,6 +145,27 @@ WithEndingInCapitals(const fs::path & name)
   }
   return text;
 }
+
+struct NotHeld : std::runtime_error
+{
+  NotHeld()
+    : std::runtime_error("its format cannot hold such voxels")
+  {}
+};
+
+/** What a small file that was just written holds: one that cannot be read is none of its format. */
+ImageDescription
+DescribeWritten(const std::string & file)
+{
+  try
+  {
+    return ItkReader(file).GetDescription();
+  }
+  catch (const std::runtime_error &)
+  {
+    throw NotHeld();
+  }
+}
 } // namespace
 
 ItkWriter::ItkWriter(const std::string & path, const OutputOptions & options, const WarningSink & warn)
@@ -240,12 +261,12 @@ ItkWriter::Try()
   {
     this->WriteFile(small, voxels.data());
     this->CheckPartners();
-    const ItkReader reader(m_File.string());
-    if (!HaveSameVoxels(small, reader.GetDescription()))
+    const ImageDescription written = DescribeWritten(m_File.string());
+    if (!HaveSameVoxels(small, written))
     {
-      throw std::runtime_error("its format cannot hold such voxels");
+      throw NotHeld();
     }
-    losses = FindLosses(small, reader.GetDescription());
+    losses = FindLosses(small, written);
     m_IsLossless = HasRows(m_File.string(), small, voxels.data());
   }
   catch (const std::exception & error)
@@ -305,6 +326,14 @@ void
 ItkWriter::CheckPartners() const
 {
   const fs::path output = m_Folder->GetOutput();
+  for (const fs::path & other : ListOtherPair(output.string()))
+  {
+    if (fs::exists(fs::symlink_status(other)))
+    {
+      throw std::runtime_error("beside it, it could not be told which of both is meant: " + other.string() +
+                               "; move that away");
+    }
+  }
   if (m_IsGzipped || fs::exists(output))
   {
     return;

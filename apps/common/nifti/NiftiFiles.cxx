@@ -89,3 +89,15 @@ ListWrittenPair(const std::string & path)
   const bool        isSmall = ending == ToLower(ending);
   return { stem + (isSmall ? ".hdr" : ".HDR") + gz, stem + (isSmall ? ".img" : ".IMG") + gz };
 }
+
+std::vector<fs::path>
+ListOtherPair(const std::string & path)
+{
+  std::vector<fs::path> others;
+  for (const fs::path & file : IsNiftiPair(path) ? ListWrittenPair(path) : std::vector<fs::path>{})
+  {
+    const bool isCompressed = ToLower(file.extension().string()) == ".gz";
+    others.push_back(isCompressed ? fs::path(file).replace_extension() : fs::path(file.string() + ".gz"));
+  }
+  return others;
+}

@@ -37,4 +37,9 @@ FindNiftiPair(const std::string & path);
 std::vector<std::filesystem::path>
 ListWrittenPair(const std::string & path);
 
+/** The names of both files as they are where the pair is compressed, if this one is not, or the other way round; none
+ * for a single file. */
+std::vector<std::filesystem::path>
+ListOtherPair(const std::string & path);
+
 #endif

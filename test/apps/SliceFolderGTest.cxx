@@ -146,6 +146,27 @@ TEST_F(SliceFolderTest, LeavesAPreviewWithoutANumberAside)
   EXPECT_TRUE(Contains(this->GetOpeningError(), "several formats"));
 }
 
+TEST_F(SliceFolderTest, ANameWithoutANumberMayBeTheFirstSlice)
+{
+  for (const std::string start : { "s_", "s-", "s (", "s.", "s" })
+  {
+    std::vector<std::string> names = { "s.tif" };
+    for (const std::string number : { "1", "2", "3" })
+    {
+      names.push_back(start + number + (start.back() == '(' ? ")" : "") + ".tif");
+    }
+    for (const std::string & name : names)
+    {
+      this->WriteSlice(name, 1);
+    }
+    EXPECT_NE(this->GetOpeningError(), "") << start;
+    for (const std::string & name : names)
+    {
+      std::filesystem::remove(m_Folder / name);
+    }
+  }
+}
+
 TEST_F(SliceFolderTest, RefusesNamesWithTwoNumbers)
 {
   this->WriteSlice("z1_c0.tif", 1);

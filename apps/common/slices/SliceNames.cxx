@@ -74,6 +74,18 @@ IsNamedLike(const SplitName & a, const SplitName & b)
   return a.Texts == b.Texts && CountNumbers(a) == CountNumbers(b) && FormatOf(a.File) == FormatOf(b.File);
 }
 
+/** NAME of NAME0001.tif, NAME_1.tif and NAME (1).tif. */
+std::string
+GetNameBeforeNumber(const fs::path & file)
+{
+  std::string name = file.stem().string();
+  for (const char * const characters : { ")", "0123456789", " _-.(" })
+  {
+    name.erase(name.find_last_not_of(characters) + 1);
+  }
+  return name;
+}
+
 /** Takes out a picture that is no slice: where all but one are named alike, and that one lacks their number, as the
  * preview NAME_rec_spr.bmp beside NAME_rec0000.bmp and on. What has their name alone may be the first slice, and stays.
  */
@@ -86,7 +98,8 @@ TakeOutPreview(const fs::path & folder, std::vector<SplitName> & names, const Wa
     const auto        alike =
       std::count_if(names.begin(), names.end(), [&other](const SplitName & name) { return IsNamedLike(name, other); });
     const bool isAlone = static_cast<std::size_t>(alike) + 1 == names.size() && !IsNamedLike(*odd, other);
-    if (isAlone && CountNumbers(*odd) < CountNumbers(other) && odd->Texts != other.Texts)
+    const bool mayBeFirst = odd->File.stem().string() == GetNameBeforeNumber(other.File);
+    if (isAlone && CountNumbers(*odd) < CountNumbers(other) && !mayBeFirst)
     {
       warn("the picture " + odd->File.filename().string() + " of the folder " + folder.string() +
            " has no number as the slices have: it is left aside");

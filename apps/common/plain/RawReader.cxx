@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plain/RawReader.h"
+#include "plain/PlainReader.h"
 #include "system/files/InputFile.h"
 #include "volumes/GridOverrides.h"
 
-#include <algorithm>
 #include <limits>
 #include <map>
 #include <stdexcept>
 
-using itk::Subdivision::Box;
 using itk::Subdivision::ElementType;
 
 namespace
@@ -90,110 +89,25 @@ CountBytes(const std::string & text, const RawLayout & layout)
   return bytes;
 }
 
-class RawReader : public VolumeReader
+ImageDescription
+Describe(const RawLayout & layout)
 {
-public:
-  RawReader(const std::string & path, const InputOptions & options, const WarningSink & warn)
-    : m_File(path)
+  const std::size_t axes = layout.Size.size();
+  ImageDescription  description;
+  description.Component = layout.Component;
+  description.NumberOfComponents = layout.NumberOfComponents;
+  description.Kind = layout.NumberOfComponents > 1 ? VoxelKind::Vector : VoxelKind::Scalar;
+  description.Format = "raw";
+  description.Grid.Size = layout.Size;
+  description.Grid.Spacing.assign(axes, 1.0);
+  description.Grid.Origin.assign(axes, 0.0);
+  for (std::size_t axis = 0; axis < axes; ++axis)
   {
-    if (!options.Raw)
-    {
-      throw std::runtime_error("cannot read " + path +
-                               ": it has no header; --raw 1024x1024x800:uint16 says what it holds");
-    }
-    m_Layout = *options.Raw;
-    const std::size_t axes = m_Layout.Size.size();
-    m_Description.Component = m_Layout.Component;
-    m_Description.NumberOfComponents = m_Layout.NumberOfComponents;
-    m_Description.Kind = m_Layout.NumberOfComponents > 1 ? VoxelKind::Vector : VoxelKind::Scalar;
-    m_Description.Format = "raw";
-    m_Description.Grid.Size = m_Layout.Size;
-    m_Description.Grid.Spacing.assign(axes, 1.0);
-    m_Description.Grid.Origin.assign(axes, 0.0);
-    for (std::size_t axis = 0; axis < axes; ++axis)
-    {
-      m_Description.Grid.Directions.emplace_back(axes, 0.0);
-      m_Description.Grid.Directions.back()[axis] = 1.0;
-    }
-    const std::uint64_t voxels = m_Description.GetNumberOfVoxels() * m_Description.GetVoxelBytes();
-    if (m_File.GetSize() < m_Layout.HeaderBytes || m_File.GetSize() - m_Layout.HeaderBytes != voxels)
-    {
-      throw std::runtime_error("cannot read " + path + ": it has " + std::to_string(m_File.GetSize()) +
-                               " bytes, but --raw says " + std::to_string(m_Layout.HeaderBytes) + " + " +
-                               std::to_string(voxels));
-    }
-    ApplyOverrides(m_Description, options, warn, false);
+    description.Grid.Directions.emplace_back(axes, 0.0);
+    description.Grid.Directions.back()[axis] = 1.0;
   }
-
-  std::vector<std::string>
-  GetFiles() const override
-  {
-    return { m_File.GetPath() };
-  }
-
-  bool
-  ReadsParts() const override
-  {
-    return true;
-  }
-
-  std::uint64_t
-  GetScratchBytes(std::uint64_t) const override
-  {
-    return 0;
-  }
-
-  void
-  Read(const Box & box, void * voxels) override
-  {
-    auto *            to = static_cast<unsigned char *>(voxels);
-    const std::size_t axes = box.size();
-    // As many axes as are read whole make one run of bytes.
-    std::size_t   axis = 0;
-    std::uint64_t run = 1;
-    do
-    {
-      run *= box[axis].Size;
-      ++axis;
-    } while (axis < axes && box[axis - 1].Size == m_Layout.Size[axis - 1]);
-    const std::uint64_t        runBytes = run * m_Description.GetVoxelBytes();
-    std::vector<std::uint64_t> index(axes, 0);
-    bool                       isDone = false;
-    while (!isDone)
-    {
-      this->ReadRun(box, index, to, runBytes);
-      to += runBytes;
-      isDone = true;
-      for (std::size_t i = axis; isDone && i < axes; ++i)
-      {
-        index[i] = (index[i] + 1) % box[i].Size;
-        isDone = index[i] == 0;
-      }
-    }
-  }
-
-private:
-  void
-  ReadRun(const Box & box, const std::vector<std::uint64_t> & index, unsigned char * to, std::uint64_t bytes) const
-  {
-    std::uint64_t voxel = 0;
-    for (std::size_t axis = box.size(); axis-- > 0;)
-    {
-      voxel = voxel * m_Layout.Size[axis] + static_cast<std::uint64_t>(box[axis].First) + index[axis];
-    }
-    m_File.ReadAt(m_Layout.HeaderBytes + voxel * m_Description.GetVoxelBytes(), to, bytes);
-    const std::uint16_t one = 1;
-    const bool          isMachineBig = *reinterpret_cast<const unsigned char *>(&one) == 0;
-    const std::size_t   elementBytes = itk::Subdivision::SizeOf(m_Layout.Component);
-    for (std::uint64_t i = 0; m_Layout.IsBigEndian != isMachineBig && i < bytes; i += elementBytes)
-    {
-      std::reverse(to + i, to + i + elementBytes);
-    }
-  }
-
-  InputFile m_File;
-  RawLayout m_Layout;
-};
+  return description;
+}
 } // namespace
 
 RawLayout
@@ -244,5 +158,24 @@ ParseRawLayout(const std::string & text)
 std::unique_ptr<VolumeReader>
 OpenRaw(const std::string & path, const InputOptions & options, const WarningSink & warn)
 {
-  return std::make_unique<RawReader>(path, options, warn);
+  const std::uint64_t fileBytes = InputFile(path).GetSize();
+  if (!options.Raw)
+  {
+    throw std::runtime_error("cannot read " + path +
+                             ": it has no header; --raw 1024x1024x800:uint16 says what it holds");
+  }
+  const RawLayout & raw = *options.Raw;
+  PlainLayout       layout;
+  layout.Description = Describe(raw);
+  const std::uint64_t voxels = layout.Description.GetNumberOfVoxels() * layout.Description.GetVoxelBytes();
+  if (fileBytes < raw.HeaderBytes || fileBytes - raw.HeaderBytes != voxels)
+  {
+    throw std::runtime_error("cannot read " + path + ": it has " + std::to_string(fileBytes) +
+                             " bytes, but --raw says " + std::to_string(raw.HeaderBytes) + " + " +
+                             std::to_string(voxels));
+  }
+  ApplyOverrides(layout.Description, options, warn, false);
+  layout.Sections = { { path, raw.HeaderBytes, voxels } };
+  layout.IsBigEndian = raw.IsBigEndian;
+  return std::make_unique<PlainReader>(path, layout);
 }

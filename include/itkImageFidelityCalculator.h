@@ -155,10 +155,16 @@ public:
   {
     return m_Figures.test.totalVariation;
   }
+  /** That of the test image by that of the reference; 1 where neither varies. */
   double
   GetRelativeTotalVariation() const
   {
-    return this->GetTestTotalVariation() / this->GetReferenceTotalVariation();
+    return GetRelativeTotalVariation(this->GetReferenceTotalVariation(), this->GetTestTotalVariation());
+  }
+  static double
+  GetRelativeTotalVariation(const double reference, const double test)
+  {
+    return reference == 0.0 && test == 0.0 ? 1.0 : test / reference;
   }
 
   double

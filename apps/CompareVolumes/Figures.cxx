@@ -145,7 +145,8 @@ CompareComponents(VolumeReader & reference, VolumeReader & test, const Compariso
     figures.ReferenceTotalVariation += own.ReferenceTotalVariation;
     figures.TestTotalVariation += own.TestTotalVariation;
   }
-  figures.RelativeTotalVariation = figures.TestTotalVariation / figures.ReferenceTotalVariation;
+  figures.RelativeTotalVariation = itk::ImageFidelityCalculator<TImage>::GetRelativeTotalVariation(
+    figures.ReferenceTotalVariation, figures.TestTotalVariation);
   return figures;
 }
 

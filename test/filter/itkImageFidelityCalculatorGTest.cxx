@@ -289,6 +289,15 @@ TEST(ImageFidelityCalculator, DividesByThePeakThatIsSet)
   EXPECT_NEAR(calculator->GetPeakSignalToNoiseRatio(), 0.0, 1e-12);
 }
 
+TEST(ImageFidelityCalculator, WhereNeitherVariesTheRelativeTotalVariationIsOne)
+{
+  const auto constant = MakeImage<float, 2>({ { 3, 1 } }, { 2, 2, 2 });
+  const auto other = MakeImage<float, 2>({ { 3, 1 } }, { 3, 3, 3 });
+  const auto varying = MakeImage<float, 2>({ { 3, 1 } }, { 2, 2, 3 });
+  EXPECT_EQ(Compare(constant, other)->GetRelativeTotalVariation(), 1.0);
+  EXPECT_EQ(Compare(constant, varying)->GetRelativeTotalVariation(), Infinity);
+}
+
 TEST(ImageFidelityCalculator, FindsEqualImagesEqual)
 {
   const auto image = MakeImage<float, 2>({ { 3, 1 } }, { 1, 5, 2 });

@@ -329,7 +329,10 @@ class Errors(CompareVolumes):
             figures = self.compare(constant, constant)
             self.assertEqual((figures["psnr_db"], figures["relative_l2_error"], figures["median_relative_error"]), (None, 0, 0))
             self.assertEqual((figures["peak"], figures["compared_voxels"], figures["excluded_voxels"]), (0, 3, 1))
-            self.assertIn("PSNR: inf dB", self.run_program(constant, constant).stdout)
+            self.assertEqual(figures["relative_total_variation"], 1)
+            printed = self.run_program(constant, constant).stdout
+            self.assertIn("PSNR: inf dB", printed)
+            self.assertIn("relative total variation: 100 % (0 of 0)", printed)
         self.assert_fails("constant", constant, self.write_mha("d.mha", [2, 2], "f", [8] * 4))
 
     def test_images_without_figures(self):

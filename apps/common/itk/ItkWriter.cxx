@@ -2,6 +2,7 @@
 #include "itk/ItkWriter.h"
 #include "deflate/ParallelDeflate.h"
 #include "headers/Metadata.h"
+#include "itk/FormatLimits.h"
 #include "itk/ItkReader.h"
 #include "itk/LibraryReason.h"
 #include "itk/PixelComponent.h"
@@ -48,46 +49,6 @@ GetPixelType(VoxelKind kind)
       break;
   }
   return itk::IOPixelEnum::VECTOR;
-}
-
-/** The largest size along an axis that a format's header can hold; 0: no limit that matters. */
-std::uint64_t
-GetLargestSize(const std::string & format)
-{
-  return format == "NiftiImageIO"                             ? 32767
-         : format == "GiplImageIO" || format == "JPEGImageIO" ? 65535
-         : format == "PNGImageIO"                             ? 1000000
-         : format == "MRCImageIO" || format == "BMPImageIO"   ? 2147483647
-                                                              : 0;
-}
-
-void
-CheckSize(const std::string & path, const ImageDescription & description, const itk::ImageIOBase & imageIO)
-{
-  const std::uint64_t largest = GetLargestSize(imageIO.GetNameOfClass());
-  for (const std::uint64_t size : description.Grid.Size)
-  {
-    if (largest != 0 && size > largest)
-    {
-      Fail(path,
-           "its format holds up to " + std::to_string(largest) + " voxels along an axis, not " + std::to_string(size) +
-             "; .mha, .mhd and .nrrd have no such limit");
-    }
-  }
-}
-
-/** ITK writes other components than those into BMP and JPEG files, too, which programs take for other colours. */
-void
-CheckComponents(const std::string & path, const ImageDescription & description, const itk::ImageIOBase & imageIO)
-{
-  const std::string  format = imageIO.GetNameOfClass();
-  const unsigned int components = description.NumberOfComponents;
-  if ((format == "BMPImageIO" || format == "JPEGImageIO") && components != 1 && components != 3)
-  {
-    Fail(path,
-         "its format holds grey values or colours of 3 components, not " + std::to_string(components) +
-           " components; use .tif, .mha or .nrrd" + (components < 5 ? ", or .png in 2D" : ""));
-  }
 }
 
 /** Small whole numbers in a row, in the type of the voxels. */
@@ -301,8 +262,7 @@ ItkWriter::Begin(const ImageDescription & description)
   const fs::path output = m_Folder->GetFileName();
   m_File = output.parent_path() / (m_IsGzipped ? "image.nii" : WithEndingInSmallLetters(output.filename()));
   const ImageIOPointer imageIO = this->MakeImageIO(description);
-  CheckSize(m_Path, description, *imageIO);
-  CheckComponents(m_Path, description, *imageIO);
+  CheckFormatLimits(m_Path, description, *imageIO);
   this->Try();
 }
 

@@ -294,8 +294,13 @@ TEST(ImageFidelityCalculator, WhereNeitherVariesTheRelativeTotalVariationIsOne)
   const auto constant = MakeImage<float, 2>({ { 3, 1 } }, { 2, 2, 2 });
   const auto other = MakeImage<float, 2>({ { 3, 1 } }, { 3, 3, 3 });
   const auto varying = MakeImage<float, 2>({ { 3, 1 } }, { 2, 2, 3 });
-  EXPECT_EQ(Compare(constant, other)->GetRelativeTotalVariation(), 1.0);
-  EXPECT_EQ(Compare(constant, varying)->GetRelativeTotalVariation(), Infinity);
+  const auto calculator = MakeCalculator(constant, other);
+  calculator->SetPeak(1.0); // a constant has none
+  calculator->Update();
+  EXPECT_EQ(calculator->GetRelativeTotalVariation(), 1.0);
+  calculator->SetTestImage(varying);
+  calculator->Update();
+  EXPECT_EQ(calculator->GetRelativeTotalVariation(), Infinity);
 }
 
 TEST(ImageFidelityCalculator, FindsEqualImagesEqual)

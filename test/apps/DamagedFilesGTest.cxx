@@ -13,7 +13,7 @@ using itk::Subdivision::ElementType;
 
 namespace
 {
-class DamagedFiles : public testing::TestWithParam<std::tuple<const char *, bool>>
+class DamagedFiles : public testing::TestWithParam<std::tuple<std::string, bool>>
 {
 protected:
   DamagedFiles()
@@ -38,7 +38,7 @@ protected:
   }
 
   TestFolder                         m_Folder;
-  std::string                        m_Name = std::string("image") + std::get<0>(GetParam());
+  std::string                        m_Name = "image" + std::get<0>(GetParam());
   ImageDescription                   m_Description = MakeDescription({ 9, 7, 5 }, ElementType::Int16);
   std::vector<char>                  m_Voxels = MakeVoxels(m_Description);
   std::map<std::string, std::string> m_Files;

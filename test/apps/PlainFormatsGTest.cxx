@@ -30,7 +30,7 @@ ExpectSameGrid(const ImageGrid & found, const ImageGrid & meant)
   }
 }
 
-class PlainFormats : public testing::TestWithParam<std::tuple<const char *, bool>>
+class PlainFormats : public testing::TestWithParam<std::tuple<std::string, bool>>
 {};
 } // namespace
 
@@ -51,7 +51,7 @@ TEST_P(PlainFormats, BothReadersFindWhatWasWritten)
         SCOPED_TRACE(std::string(GetName(type)) + " axes " + std::to_string(size.size()) + " components " +
                      std::to_string(components));
         const TestFolder       folder;
-        const std::string      path = folder / (std::string("image") + ending);
+        const std::string      path = folder / ("image" + ending);
         const ImageDescription description = MakeDescription(size, type, components);
         const auto             voxels = MakeVoxels(description);
         OutputOptions          options;
@@ -60,7 +60,7 @@ TEST_P(PlainFormats, BothReadersFindWhatWasWritten)
 
         const auto own = Open(path);
         // ITK knows no endings in capitals, and takes data files by the names in the header.
-        const std::string plainPath = folder / (std::string("image") + ToLower(ending));
+        const std::string plainPath = folder / ("image" + ToLower(ending));
         std::filesystem::rename(path, plainPath);
         ItkReader itkReader(plainPath);
         for (VolumeReader * const reader : { own.get(), static_cast<VolumeReader *>(&itkReader) })
@@ -80,7 +80,7 @@ TEST_P(PlainFormats, PartsAreThoseOfTheWhole)
 {
   const auto [ending, compress] = GetParam();
   const TestFolder       folder;
-  const std::string      path = folder / (std::string("image") + ending);
+  const std::string      path = folder / ("image" + ending);
   const ImageDescription description = MakeDescription({ 40, 30, 20 }, ElementType::UInt16, 2);
   const auto             voxels = MakeVoxels(description);
   OutputOptions          options;

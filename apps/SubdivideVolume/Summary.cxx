@@ -3,6 +3,8 @@
 
 #include "SlicerDescription.h"
 
+#include "system/files/DiskRoom.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
@@ -58,15 +60,7 @@ std::optional<std::uint64_t>
 GetFreeSpace(const std::string & output)
 {
   std::error_code error;
-  const auto      folder = std::filesystem::absolute(output, error).parent_path();
-  const auto      space = std::filesystem::space(folder, error);
-  return error ? std::nullopt : std::optional<std::uint64_t>(space.available);
-}
-
-std::uint64_t
-GetBytes(const ImageDescription & image)
-{
-  return image.GetNumberOfVoxels() * image.GetVoxelBytes();
+  return GetFreeBytes(std::filesystem::absolute(output, error).parent_path());
 }
 
 ordered_json
@@ -164,7 +158,7 @@ ToJson(const Forecast & forecast)
   object["input"] = ToJson(forecast.Options.Input, forecast.Input);
   object["input"]["format"] = forecast.Input.Format;
   object["output"] = ToJson(forecast.Options.Output, forecast.Output);
-  object["output"]["bytes"] = GetBytes(forecast.Output);
+  object["output"]["bytes"] = forecast.Output.GetBytes();
   const auto space = GetFreeSpace(forecast.Options.Output);
   object["disk_free_bytes"] = space ? ordered_json(*space) : ordered_json(nullptr);
   object["memory_bytes"] = forecast.Plan.PeakBytes;
@@ -203,7 +197,7 @@ Describe(const Forecast & forecast)
   return "input   " + DescribeGrid(forecast.Input) + ", origin " + Join(forecast.Input.Grid.Origin, " ") + ", " +
          forecast.Input.Format + "\noutput  " + DescribeGrid(forecast.Output) + ", origin " +
          Join(forecast.Output.Grid.Origin, " ") + "\ndisk    " +
-         Format(static_cast<double>(GetBytes(forecast.Output)) / Megabyte, 1) + " MB uncompressed" +
+         Format(static_cast<double>(forecast.Output.GetBytes()) / Megabyte, 1) + " MB uncompressed" +
          (space ? ", " + Format(static_cast<double>(*space) / Megabyte, 1) + " MB free" : "") + "\nmemory  about " +
          Format(static_cast<double>(forecast.Plan.PeakBytes) / Megabyte, 0) + " MB with " +
          DescribeNumber(forecast.Threads, "thread") + ", " + DescribeNumber(forecast.Plan.Pieces.size(), "piece") +

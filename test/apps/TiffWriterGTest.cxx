@@ -251,9 +251,8 @@ TEST_F(TiffWriterTest, ThreeOrFourComponentsThatCanBeColoursAre)
     auto description = MakeDescription(type);
     description.NumberOfComponents = components;
     description.Kind = VoxelKind::Vector;
-    const std::vector<std::uint8_t> voxels =
-      MakeVoxels<std::uint8_t>(description.GetNumberOfVoxels() * description.GetVoxelBytes());
-    const auto writer = this->Begin("out.tif", description);
+    const std::vector<std::uint8_t> voxels = MakeVoxels<std::uint8_t>(description.GetBytes());
+    const auto                      writer = this->Begin("out.tif", description);
     writer->Write(Box{ { 0, Width }, { 0, Height }, { 0, Slices } }, voxels.data());
     writer->Commit();
     const auto                reader = this->Open("out.tif");

@@ -72,7 +72,7 @@ ReadDicom(const std::string & path)
   {
     box.push_back({ 0, size });
   }
-  std::vector<char> voxels(description.GetNumberOfVoxels() * description.GetVoxelBytes());
+  std::vector<char> voxels(description.GetBytes());
   reader->Read(box, voxels.data());
   return 0;
 }

@@ -35,7 +35,7 @@ OpenAnyNrrd(const std::string & path, const InputOptions & options, const Warnin
     const std::uint64_t      bytes = CheckNrrdNumbers(path);
     auto                     reader = OpenByItk(path, options, warn);
     const ImageDescription & description = reader->GetDescription();
-    if (description.GetNumberOfVoxels() * description.GetVoxelBytes() != bytes)
+    if (description.GetBytes() != bytes)
     {
       FailToRead(path, "a part of its voxels' components would be left out; save them as a vector");
     }

@@ -84,7 +84,7 @@ FindText(const InputFile & file, std::uint64_t start, std::int64_t byteSkip)
 void
 LocateData(const std::string & path, const DataFiles & files, PlainLayout & layout)
 {
-  const std::uint64_t bytes = layout.Description.GetNumberOfVoxels() * layout.Description.GetVoxelBytes();
+  const std::uint64_t bytes = layout.Description.GetBytes();
   const bool          isCompressed = layout.Encoding == PlainEncoding::Compressed;
   const std::size_t   count = files.Names.empty() ? 1 : files.Names.size();
   if (bytes % count != 0)

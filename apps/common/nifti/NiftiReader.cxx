@@ -29,7 +29,7 @@ MakeLayout(const NiftiHeader & header, const std::string & voxels, const ImageDe
     layout.Description.NumberOfComponents = 1;
   }
   const ImageDescription & stored = layout.Description;
-  layout.Sections = { { voxels, header.GetDataOffset(), stored.GetNumberOfVoxels() * stored.GetVoxelBytes() } };
+  layout.Sections = { { voxels, header.GetDataOffset(), stored.GetBytes() } };
   layout.IsBigEndian = header.IsBigEndian();
   return layout;
 }

@@ -70,7 +70,7 @@ public:
   {
     OutputFile header((folder / m_Output.filename()).string(), m_Path);
     header.WriteAt(0, m_Header.Text.data(), m_Header.Text.size());
-    const std::uint64_t size = m_Description.GetNumberOfVoxels() * m_Description.GetVoxelBytes();
+    const std::uint64_t size = m_Description.GetBytes();
     if (m_Header.IsDetached)
     {
       OutputFile(this->GetDataFile(folder).string(), m_Path).SetSize(size);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pieces/PieceWriter.h"
 #include "slices/SliceFolderWriter.h"
+#include "system/files/DiskRoom.h"
 #include "system/files/DiskSync.h"
 #include "tiff/TiffPageWriter.h"
 
@@ -64,14 +65,7 @@ public:
   void
   LayOut(const fs::path & folder) const override
   {
-    std::error_code      error;
-    const std::uint64_t  bytes = m_Description.GetNumberOfVoxels() * m_Description.GetVoxelBytes();
-    const fs::space_info space = fs::space(folder, error);
-    if (!error && space.available < bytes)
-    {
-      this->Fail("the disk has room for " + std::to_string(space.available) + " bytes, " + std::to_string(bytes) +
-                 " are needed");
-    }
+    CheckFreeBytes(m_Path, folder, m_Description.GetBytes());
     fs::create_directory(folder / m_Output.filename());
   }
 

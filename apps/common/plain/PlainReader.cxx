@@ -126,7 +126,7 @@ PlainReader::ReadCompressed(std::uint64_t offset, char * bytes, std::uint64_t co
   if (left > 0)
   {
     m_Stream->ReadAt(m_Layout.InflatedOffset + place, bytes, left);
-    const std::uint64_t size = m_Description.GetNumberOfVoxels() * m_Description.GetVoxelBytes();
+    const std::uint64_t size = m_Description.GetBytes();
     if (offset + count == size)
     {
       m_Stream->CheckEnd();
@@ -171,7 +171,7 @@ std::uint64_t
 CheckNrrdNumbers(const std::string & path)
 {
   const PlainLayout   layout = ReadNrrdNumbers(path);
-  const std::uint64_t bytes = layout.Description.GetNumberOfVoxels() * layout.Description.GetVoxelBytes();
+  const std::uint64_t bytes = layout.Description.GetBytes();
   if (layout.Encoding == PlainEncoding::Text || layout.Encoding == PlainEncoding::Hex)
   {
     FailToRead(path, "voxels as text are not supported with axes like its own; save it with the encoding raw or gzip");

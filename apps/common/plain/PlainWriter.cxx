@@ -61,8 +61,7 @@ PlainWriter::Begin(const ImageDescription & description)
   m_BytesWritten = m_CompressedBytes = 0;
   if (!m_Options.Compress)
   {
-    if (data.Reserve(m_DataOffset + m_Description.GetNumberOfVoxels() * m_Description.GetVoxelBytes()) &&
-        m_Folder->RelyOnRoom())
+    if (data.Reserve(m_DataOffset + m_Description.GetBytes()) && m_Folder->RelyOnRoom())
     {
       data.DoNotHurry();
     }
@@ -116,7 +115,7 @@ PlainWriter::ComposeHeader(const std::string & dataName) const
 void
 PlainWriter::Commit()
 {
-  if (m_BytesWritten != m_Description.GetNumberOfVoxels() * m_Description.GetVoxelBytes())
+  if (m_BytesWritten != m_Description.GetBytes())
   {
     Fail(m_Path, "not all voxels were written");
   }

@@ -167,7 +167,7 @@ OpenRaw(const std::string & path, const InputOptions & options, const WarningSin
   const RawLayout & raw = *options.Raw;
   PlainLayout       layout;
   layout.Description = Describe(raw);
-  const std::uint64_t voxels = layout.Description.GetNumberOfVoxels() * layout.Description.GetVoxelBytes();
+  const std::uint64_t voxels = layout.Description.GetBytes();
   if (fileBytes < raw.HeaderBytes || fileBytes - raw.HeaderBytes != voxels)
   {
     throw std::runtime_error("cannot read " + path + ": it has " + std::to_string(fileBytes) +

@@ -98,7 +98,7 @@ TextReader::TextReader(const std::string & path, const PlainLayout & layout)
 {
   m_Description = layout.Description;
   const std::size_t   elementBytes = itk::Subdivision::SizeOf(m_Description.Component);
-  const std::uint64_t bytes = m_Description.GetNumberOfVoxels() * m_Description.GetVoxelBytes();
+  const std::uint64_t bytes = m_Description.GetBytes();
   const std::uint64_t part = bytes / layout.Sections.size();
   for (const FileSection & section : layout.Sections)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slices/SliceFolderWriter.h"
 #include "outputs/StagedFolder.h"
+#include "system/files/DiskRoom.h"
 #include "text/HeaderText.h"
 #include "tiff/TiffPageWriter.h"
 
@@ -79,8 +80,6 @@ private:
     throw std::runtime_error("cannot write " + m_Path + ": " + reason);
   }
 
-  void
-  CheckRoom() const;
   std::unique_ptr<TiffPageWriter>
   OpenSlice(std::uint64_t number) const;
   void
@@ -139,19 +138,9 @@ SliceFolderWriter::Begin(const ImageDescription & description)
   }
   CheckOldSlices(m_Path, m_Output);
   m_Folder = std::make_unique<StagedFolder>(m_Output);
-  this->CheckRoom();
-}
-
-void
-SliceFolderWriter::CheckRoom() const
-{
-  std::error_code      error;
-  const std::uint64_t  bytes = m_Description.GetNumberOfVoxels() * m_Description.GetVoxelBytes();
-  const fs::space_info space = fs::space(m_Folder->GetPath(), error);
-  if (!error && !m_Options.Compress && space.available < bytes)
+  if (!m_Options.Compress)
   {
-    this->Fail("the disk has room for " + std::to_string(space.available) + " bytes, " + std::to_string(bytes) +
-               " are needed");
+    CheckFreeBytes(m_Path, m_Folder->GetPath(), m_Description.GetBytes());
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tiff/TiffWriter.h"
 #include "outputs/TemporaryFolder.h"
+#include "system/files/DiskRoom.h"
 #include "tiff/TiffPageWriter.h"
 #include "tiff/TiffReader.h"
 
@@ -71,18 +72,14 @@ TiffWriter::Begin(const ImageDescription & description)
   m_Slices = description.Grid.Size.size() > 2 ? description.Grid.Size[2] : 1;
   m_Folder = std::make_unique<TemporaryFolder>(m_Path, m_Warn);
 
-  const std::uint64_t   bytes = description.GetNumberOfVoxels() * description.GetVoxelBytes();
-  const std::uint64_t   headers = 1000 * m_Slices + bytes / 1000;
-  const std::string     file = m_Folder->GetFileName().string();
-  std::error_code       error;
-  const auto            space = std::filesystem::space(m_Folder->GetFileName().parent_path(), error);
-  constexpr std::size_t most = 4000000000u; // offsets have 32 bits
-  if (!error && !m_Options.Compress && space.available < bytes)
+  if (!m_Options.Compress)
   {
-    this->Fail("the disk has room for " + std::to_string(space.available) + " bytes, " + std::to_string(bytes) +
-               " are needed");
+    CheckFreeBytes(m_Path, m_Folder->GetFileName().parent_path(), description.GetBytes());
   }
-  m_Pages = std::make_unique<TiffPageWriter>(file, m_Path, description, m_Options, bytes + headers > most);
+  const std::uint64_t     headers = 1000 * m_Slices + description.GetBytes() / 1000;
+  constexpr std::uint64_t most = 4000000000u; // offsets have 32 bits
+  const bool              isBig = description.GetBytes() + headers > most;
+  m_Pages = std::make_unique<TiffPageWriter>(m_Folder->GetFileName().string(), m_Path, description, m_Options, isBig);
 }
 
 void

@@ -57,6 +57,13 @@ struct ImageDescription
   {
     return NumberOfComponents * itk::Subdivision::SizeOf(Component);
   }
+
+  /** Those of all voxels. */
+  std::uint64_t
+  GetBytes() const
+  {
+    return this->GetNumberOfVoxels() * this->GetVoxelBytes();
+  }
 };
 
 /** Takes a warning, one sentence, to where the user sees it. */

@@ -3,6 +3,7 @@
 #include "system/files/FileDescriptor.h"
 
 #include <cerrno>
+#include <stdexcept>
 #include <vector>
 
 #include <fcntl.h>
@@ -26,6 +27,25 @@ TryToWriteIn(const std::filesystem::path & folder)
   }
   std::filesystem::remove(probe);
   return error;
+}
+
+std::optional<std::uint64_t>
+GetFreeBytes(const std::filesystem::path & folder)
+{
+  std::error_code error;
+  const auto      space = std::filesystem::space(folder, error);
+  return error ? std::nullopt : std::optional<std::uint64_t>(space.available);
+}
+
+void
+CheckFreeBytes(const std::string & path, const std::filesystem::path & folder, const std::uint64_t bytes)
+{
+  const auto free = GetFreeBytes(folder);
+  if (free && *free < bytes)
+  {
+    throw std::runtime_error("cannot write " + path + ": the disk has room for " + std::to_string(*free) + " bytes, " +
+                             std::to_string(bytes) + " are needed");
+  }
 }
 
 std::optional<std::uint64_t>

@@ -3,12 +3,12 @@
 #include "nifti/NiftiFiles.h"
 #include "text/HeaderText.h"
 
-#include "itk_zlib.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+
+#include <zlib.h>
 
 namespace
 {

@@ -51,6 +51,18 @@ class Headers(ProgramTest):
             file.write(content[:352] + b"x" * 48 + content[352:])
         self.assertEqual(self.read("in.nii").values, self.truth)
 
+    def test_nifti_bits_are_those_of_the_type(self):
+        self.patch_nifti(("<h", 72, 32))
+        with open(self.path("in.nii"), "r+b") as file:
+            content = file.read()
+            file.write(content[352:])  # as many bytes as these bits ask for
+            content += content[352:]
+        self.refuse("in.nii", "bitpix", "datatype")
+        os.remove(self.path("in.nii"))
+        with gzip.open(self.path("in.nii.gz"), "wb") as file:
+            file.write(content)
+        self.refuse("in.nii.gz", "bitpix", "datatype")
+
     def test_a_nifti_slope_of_none(self):
         for name in ("in.nii", "in.nii.gz"):
             self.patch_nifti(("<2f", 112, 0, 7), name="in.nii")

@@ -142,11 +142,21 @@ NiftiHeader::GetComponent() const
   }
 }
 
-bool
-NiftiHeader::HasComponentsSideBySide() const
+unsigned int
+NiftiHeader::CountComponentsSideBySide() const
 {
-  const int type = this->Get<std::int16_t>(DataType);
-  return type == Complex64 || type == Complex128 || type == Rgb24 || type == Rgba32;
+  switch (this->Get<std::int16_t>(DataType))
+  {
+    case Complex64:
+    case Complex128:
+      return 2;
+    case Rgb24:
+      return 3;
+    case Rgba32:
+      return 4;
+    default:
+      return 1;
+  }
 }
 
 bool
@@ -184,10 +194,13 @@ NiftiHeader::GetDataOffset() const
 std::uint64_t
 NiftiHeader::GetDataBytes() const
 {
-  std::uint64_t bits = this->Get<std::uint16_t>(Bits);
-  for (int axis = 1; axis <= this->Get<std::int16_t>(Dimensions); ++axis)
+  constexpr int           mostAxes = 7; // of a header; where it says more, it is none
+  constexpr std::uint64_t mostBits = std::uint64_t{ 1 } << 60;
+  std::uint64_t           bits = this->Get<std::uint16_t>(Bits);
+  for (int axis = 1; axis <= std::min<int>(mostAxes, this->Get<std::int16_t>(Dimensions)); ++axis)
   {
-    bits *= this->Get<std::uint16_t>(Dimensions + 2 * static_cast<std::size_t>(axis));
+    const std::uint64_t size = this->Get<std::uint16_t>(Dimensions + 2 * static_cast<std::size_t>(axis));
+    bits = size > 0 && bits > mostBits / size ? mostBits : bits * size;
   }
   return bits / 8;
 }
@@ -217,6 +230,14 @@ NiftiHeader::FindFault() const
   {
     return "its header says that its voxels start at byte " + std::to_string(this->GetDataOffset()) +
            ", where the header itself is; they start at 352 or later (vox_offset)";
+  }
+  const auto component = this->GetComponent();
+  const auto bits = std::size_t{ this->Get<std::uint16_t>(Bits) };
+  const auto typeBits = component ? 8 * this->CountComponentsSideBySide() * itk::Subdivision::SizeOf(*component) : bits;
+  if (bits != typeBits)
+  {
+    return "its header says that a voxel has " + std::to_string(bits) + " bits (bitpix), but its type has " +
+           std::to_string(typeBits) + " (datatype); set the wrong one right";
   }
   const bool isNifti = m_IsComplete && m_Bytes[Magic] == 'n';
   if (isNifti && this->Get<float>(Slope) == 0.0f && intercept != 0.0f && std::isfinite(intercept))

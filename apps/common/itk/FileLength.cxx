@@ -90,8 +90,9 @@ CheckLength(const std::string & path, Bytes & bytes, std::uint64_t expected)
   }
 }
 
+/** \param voxels the file that they are in */
 void
-CheckForFaults(const std::string & path, const NiftiHeader & header)
+CheckNiftiVoxels(const std::string & path, const NiftiHeader & header, const std::string & voxels)
 {
   const std::string fault = header.GetDataBytes() == 0
                               ? "it has no voxels: a size (dim) or the bits of a voxel (bitpix) in its header are 0"
@@ -100,20 +101,8 @@ CheckForFaults(const std::string & path, const NiftiHeader & header)
   {
     FailToRead(path, fault);
   }
-}
-
-void
-CheckNiftiPair(const std::string & path)
-{
-  const NiftiPair   files = FindNiftiPair(path);
-  const NiftiHeader header(files.Header);
-  if (header.IsOfPair())
-  {
-    CheckForFaults(path, header);
-    const std::uint64_t expected = header.GetDataOffset() + header.GetDataBytes();
-    Bytes               bytes(files.Voxels);
-    CheckLength(files.Voxels, bytes, expected);
-  }
+  Bytes bytes(voxels);
+  CheckLength(voxels, bytes, header.GetDataOffset() + header.GetDataBytes());
 }
 
 using MrcHeader = std::array<unsigned char, 1024>;
@@ -142,18 +131,24 @@ GetLittleEndian(const MrcHeader & header, std::size_t place)
 void
 CheckNiftiLength(const std::string & path)
 {
-  if (IsNiftiPair(path))
+  const bool        isPair = IsNiftiPair(path);
+  const NiftiPair   files = isPair ? FindNiftiPair(path) : NiftiPair{ path, path };
+  const NiftiHeader header(files.Header);
+  if (isPair && header.IsSingleFile())
   {
-    CheckNiftiPair(path);
-    return;
+    FailToRead(path,
+               "it is one of two files, but the header says that the voxels are in the same file (magic n+1); name the "
+               "header's file .nii, or set the magic to ni1");
   }
-  const NiftiHeader header(path);
-  if (header.IsSingleFile())
+  if (!isPair && header.IsOfPair() && !header.IsSingleFile())
   {
-    CheckForFaults(path, header);
-    const std::uint64_t expected = header.GetDataOffset() + header.GetDataBytes();
-    Bytes               bytes(path);
-    CheckLength(path, bytes, expected);
+    FailToRead(path,
+               "its header says that the voxels are in a file of their own (no magic n+1); name the files .hdr and "
+               ".img, or set the magic to n+1");
+  }
+  if (header.IsSingleFile() || header.IsOfPair())
+  {
+    CheckNiftiVoxels(path, header, files.Voxels);
   }
 }
 

@@ -81,9 +81,16 @@ NiftiHeader::Get(const std::size_t offset) const
 }
 
 bool
+NiftiHeader::IsNifti() const
+{
+  const char * const magic = m_Bytes.data() + Magic;
+  return m_IsComplete && (std::memcmp(magic, "n+1", 4) == 0 || std::memcmp(magic, "ni1", 4) == 0);
+}
+
+bool
 NiftiHeader::IsSingleFile() const
 {
-  return m_IsComplete && std::memcmp(m_Bytes.data() + Magic, "n+1", 3) == 0;
+  return this->IsNifti() && m_Bytes[Magic + 1] == '+';
 }
 
 bool
@@ -172,9 +179,9 @@ NiftiHeader::GetRescaling() const
   const double     stored = this->Get<float>(Slope);
   const double     slope = std::abs(stored) < least ? 1.0 : stored;
   const double     intercept = this->Get<float>(Intercept);
-  const bool       isNifti = m_Bytes[Magic] == 'n'; // Analyze has no slope there
   const bool       changes = std::abs(slope - 1.0) > least || std::abs(intercept) > least;
-  return isNifti && changes ? std::make_optional(std::make_pair(slope, intercept)) : std::nullopt;
+  // Analyze has no slope there.
+  return this->IsNifti() && changes ? std::make_optional(std::make_pair(slope, intercept)) : std::nullopt;
 }
 
 bool
@@ -226,6 +233,10 @@ NiftiHeader::FindFault() const
 {
   constexpr std::uint64_t least = Size + 4; // the header, and whether extensions follow
   const float             intercept = this->Get<float>(Intercept);
+  if (m_Bytes[Magic] == 'n' && !this->IsNifti())
+  {
+    return "its header's magic is neither NIfTI's (n+1, ni1) nor Analyze's; set it to one of these";
+  }
   if (this->IsSingleFile() && this->GetDataOffset() < least)
   {
     return "its header says that its voxels start at byte " + std::to_string(this->GetDataOffset()) +
@@ -239,8 +250,7 @@ NiftiHeader::FindFault() const
     return "its header says that a voxel has " + std::to_string(bits) + " bits (bitpix), but its type has " +
            std::to_string(typeBits) + " (datatype); set the wrong one right";
   }
-  const bool isNifti = m_IsComplete && m_Bytes[Magic] == 'n';
-  if (isNifti && this->Get<float>(Slope) == 0.0f && intercept != 0.0f && std::isfinite(intercept))
+  if (this->IsNifti() && this->Get<float>(Slope) == 0.0f && intercept != 0.0f && std::isfinite(intercept))
   {
     return "its header has an intercept of " + FormatReal(intercept) +
            ", but a slope of 0, which programs take in different ways; set scl_slope to 1 or scl_inter to 0";
@@ -305,15 +315,13 @@ NiftiHeader::IsPlacedFinitely() const
 bool
 NiftiHeader::IsPlaced() const
 {
-  return m_IsComplete && m_Bytes[Magic] == 'n' &&
-         (this->Get<std::int16_t>(QuaternionCode) > 0 || this->Get<std::int16_t>(MatrixCode) > 0);
+  return this->IsNifti() && (this->Get<std::int16_t>(QuaternionCode) > 0 || this->Get<std::int16_t>(MatrixCode) > 0);
 }
 
 bool
 NiftiHeader::IsPlacedTwice() const
 {
-  if (!m_IsComplete || m_Bytes[Magic] != 'n' || this->Get<std::int16_t>(QuaternionCode) <= 0 ||
-      this->Get<std::int16_t>(MatrixCode) <= 0)
+  if (!this->IsNifti() || this->Get<std::int16_t>(QuaternionCode) <= 0 || this->Get<std::int16_t>(MatrixCode) <= 0)
   {
     return false;
   }

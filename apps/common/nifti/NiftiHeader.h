@@ -99,6 +99,8 @@ private:
   template <typename T>
   T
   Get(std::size_t offset) const;
+  bool
+  IsNifti() const;
   Matrix
   GetQuaternionMatrix() const;
   Matrix

@@ -9,7 +9,7 @@ LLVMFuzzerTestOneInput(const std::uint8_t * const data, const std::size_t size)
 {
   static const FuzzFolder folder;
   FuzzBytes               bytes(data, size);
-  switch (bytes.Below(5))
+  switch (bytes.Below(6))
   {
     case 0:
       FuzzNifti(bytes, folder);
@@ -23,8 +23,11 @@ LLVMFuzzerTestOneInput(const std::uint8_t * const data, const std::size_t size)
     case 3:
       FuzzJpeg(bytes, folder);
       break;
-    default:
+    case 4:
       FuzzLength(bytes, folder);
+      break;
+    default:
+      FuzzNiftiNames(bytes);
   }
   return 0;
 }

@@ -16,6 +16,10 @@
 void
 FuzzNifti(FuzzBytes & bytes, const FuzzFolder & folder);
 
+/** The names of NIfTI's files. */
+void
+FuzzNiftiNames(FuzzBytes & bytes);
+
 void
 FuzzVtk(FuzzBytes & bytes, const FuzzFolder & folder);
 

@@ -138,6 +138,13 @@ def files():
     yield volume(0, nifti(offset=300), VOXELS)
     yield volume(0, nifti(intercept=1), VOXELS)
     yield volume(0, nifti(bits=32), VOXELS * 2)
+    # A single file's header in a pair, the other way round, and one of a magic that is nobody's.
+    yield volume(3, nifti()[:348], bytes(352) + VOXELS)
+    yield volume(5, nifti()[:348], bytes(352) + VOXELS)
+    yield volume(0, nifti(magic=b"ni1"))
+    yield volume(0, nifti(magic=b"\0\0\0", offset=0))
+    yield volume(0, nifti(magic=b"n+2"))
+    yield volume(3, nifti(magic=b"ni2", offset=0, slope=7)[:348])
     # More voxels than 64 bits count, none of them there.
     yield volume(0, nifti(sizes=(32767,) * 7), VOXELS)
 
@@ -200,6 +207,10 @@ def files():
     yield length(2, 16, bytes(mrc) + VOXELS)
     mrc[212] = 0x11
     yield length(2, 16, bytes(mrc) + VOXELS)
+    for number in range(9):
+        yield b"\5" + bytes([number]) + b"scan.img"
+    yield b"\5\x08scan.Img.Gz"
+    yield b"\5\x08scan.nii.gz"
 
 
 def runs():

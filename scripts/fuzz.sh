@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Fuzzes the kernel and array layers, and the programs' readers of headers and short texts, under the address and
+# Fuzzes the kernel and array layers, and the programs' readers of headers, files and short texts, under the address and
 # undefined-behaviour sanitizers, with clang's libFuzzer:
-#   fuzz.sh [RUNS [FUZZER ...]]    RUNS executions (a million) of SubdividerFuzz, HeaderFuzz and TextFuzz
+#   fuzz.sh [RUNS [FUZZER ...]]    RUNS executions (a million) of SubdividerFuzz, HeaderFuzz, FileFuzz and TextFuzz
 # What is found stands in build/fuzz/found-FUZZER. What is worth keeping of a corpus goes to test/fuzz/corpus:
 #   build/fuzz/HeaderFuzz -merge=1 test/fuzz/corpus/header build/fuzz/corpus-HeaderFuzz
 set -euo pipefail
@@ -11,9 +11,9 @@ cd "$(dirname "$0")/.."
 runs=${1:-1000000}
 fuzzers=("${@:2}")
 if [[ ${#fuzzers[@]} -eq 0 ]]; then
-  fuzzers=(SubdividerFuzz HeaderFuzz TextFuzz)
+  fuzzers=(SubdividerFuzz HeaderFuzz FileFuzz TextFuzz)
 fi
-declare -A folders=([SubdividerFuzz]=subdivider [HeaderFuzz]=header [TextFuzz]=text)
+declare -A folders=([SubdividerFuzz]=subdivider [HeaderFuzz]=header [FileFuzz]=file [TextFuzz]=text)
 
 scripts/install_packages.sh build fuzz
 if command -v ccache > /dev/null; then

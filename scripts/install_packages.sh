@@ -16,7 +16,7 @@ declare -A packages=(
   [coverage]="gcovr"
   [wrapping]="castxml git libtbb-dev"
   [clang]="clang libclang-rt-14-dev"
-  [fuzz]="clang libclang-rt-14-dev libcli11-dev libgtest-dev libisal-dev libpugixml-dev zlib1g-dev"
+  [fuzz]="clang libclang-rt-14-dev libcli11-dev libgtest-dev libisal-dev libjpeg-dev libpugixml-dev zlib1g-dev"
   [machines]="clang g++-aarch64-linux-gnu g++-arm-linux-gnueabihf g++-mingw-w64-x86-64-posix g++-powerpc64le-linux-gnu
     g++-riscv64-linux-gnu g++-s390x-linux-gnu libc++-dev libc++abi-dev qemu-user-static wine wine64"
   [valgrind]="libgtest-dev valgrind"

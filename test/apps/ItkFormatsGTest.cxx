@@ -107,13 +107,17 @@ TEST(ItkFormatsLimits, WhatIsLostIsSaid)
 // Neither image could be read any more.
 TEST(ItkFormatsLimits, APairIsNotPutBesideACompressedOne)
 {
-  for (const std::string present : { "a.hdr", "a.img", "a.hdr.gz", "a.img.gz" })
+  for (const std::string present :
+       { "a.hdr", "a.img", "a.hdr.gz", "a.img.gz", "A.HDR", "A.IMG", "A.HDR.GZ", "A.IMG.GZ" })
   {
     const TestFolder folder;
     folder.WriteFile(present, "another image's");
     const bool isCompressed = present.size() > 5;
-    for (const std::string & name :
-         isCompressed ? std::vector<std::string>{ "a.hdr", "a.img" } : std::vector<std::string>{ "a.img.gz" })
+    const bool isSmall = present[0] == 'a';
+    const auto compressed = isSmall ? std::vector<std::string>{ "a.img.gz" } : std::vector<std::string>{ "A.IMG.GZ" };
+    const auto plain =
+      isSmall ? std::vector<std::string>{ "a.hdr", "a.img" } : std::vector<std::string>{ "A.HDR", "A.IMG" };
+    for (const std::string & name : isCompressed ? plain : compressed)
     {
       const auto writer = CreateVolume(folder / name, {}, [](const std::string &) {});
       const auto error = GetError([&] { writer->Begin(MakeUpright({ 9, 7, 5 }, ElementType::UInt8)); });

@@ -10,10 +10,13 @@
 #include "headers/NrrdHeader.h"
 #include "headers/PlainHeader.h"
 #include "plain/PlainReader.h"
+#include "system/files/InputFile.h"
 #include "text/HeaderText.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace
@@ -56,46 +59,97 @@ CheckSections(const PlainLayout & layout)
   }
   const ImageDescription & description = layout.Description;
   FuzzExpect(layout.Encoding != PlainEncoding::Raw ||
-               bytes == description.GetNumberOfVoxels() * description.GetVoxelBytes(),
+               bytes == description.GetBytes(),
              "more or fewer bytes than the voxels have");
 }
 
-/** Reads all voxels, then the last one of each axis. */
-void
-ReadVoxels(const std::string & path, const PlainLayout & layout)
+bool
+IsBigEndianMachine()
 {
-  if (layout.Encoding == PlainEncoding::Text || layout.Encoding == PlainEncoding::Hex)
+  const std::uint16_t one = 1;
+  return *reinterpret_cast<const unsigned char *>(&one) == 0;
+}
+
+/** The bytes whose hexadecimal digits stand in a part of a file, as the machine's elements; nothing if that is not all
+ * that stands there. */
+std::optional<std::string>
+DecodeHex(const FileSection & section, const std::size_t elementSize, const bool isBigEndian)
+{
+  std::string digits;
+  for (const char c : InputFile(section.Path).ReadTextAt(section.Offset, section.Size))
+  {
+    if (std::isxdigit(static_cast<unsigned char>(c)) != 0)
+    {
+      digits += c;
+    }
+    else if (std::isspace(static_cast<unsigned char>(c)) == 0)
+    {
+      return std::nullopt;
+    }
+  }
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < digits.size(); i += 2)
+  {
+    bytes += static_cast<char>(std::stoul(digits.substr(i, 2), nullptr, 16));
+  }
+  for (std::size_t i = 0; isBigEndian != IsBigEndianMachine() && i + elementSize <= bytes.size(); i += elementSize)
+  {
+    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(i),
+                 bytes.begin() + static_cast<std::ptrdiff_t>(i + elementSize));
+  }
+  return digits.size() % 2 == 0 ? std::make_optional(bytes) : std::nullopt;
+}
+
+/** Voxels in one file as hexadecimal digits are those of the digits, and refused if they are more or fewer. */
+void
+CheckHex(const PlainLayout & layout, const std::vector<char> & voxels, const bool isRead)
+{
+  if (layout.Encoding != PlainEncoding::Hex || layout.Sections.size() != 1)
   {
     return;
   }
-  const ImageDescription & description = layout.Description;
-  const std::uint64_t      bytes = description.GetNumberOfVoxels() * description.GetVoxelBytes();
-  if (bytes > MostBytes)
+  const auto bytes =
+    DecodeHex(layout.Sections[0], itk::Subdivision::SizeOf(layout.Description.Component), layout.IsBigEndian);
+  FuzzExpect(isRead ==
+               (bytes && bytes->size() == layout.Description.GetBytes()),
+             "digits that are right are refused, or the other way round");
+  FuzzExpect(!isRead || std::equal(voxels.begin(), voxels.end(), bytes->begin()), "voxels other than their digits");
+}
+
+/** Reads all voxels, then the last one of each axis. What is compressed or text shows only then that it is damaged. */
+void
+ReadVoxels(const std::string & path, const bool isNrrd, const PlainLayout & layout)
+{
+  if (layout.Description.GetBytes() > MostBytes)
   {
     return;
   }
-  itk::Subdivision::Box all;
-  itk::Subdivision::Box last;
-  for (const std::uint64_t size : description.Grid.Size)
-  {
-    all.push_back({ 0, size });
-    last.push_back({ static_cast<std::int64_t>(size) - 1, 1 });
-  }
-  std::vector<char> voxels(bytes);
-  std::vector<char> voxel(description.GetVoxelBytes());
+  std::vector<char> voxels;
+  bool              isRead = true;
   try
   {
-    PlainReader reader(path, layout);
-    reader.Read(all, voxels.data());
-    reader.Read(last, voxel.data());
+    const auto               reader = isNrrd ? OpenNrrd(path) : OpenMetaImage(path);
+    const ImageDescription & description = reader->GetDescription();
+    itk::Subdivision::Box    all;
+    itk::Subdivision::Box    last;
+    for (const std::uint64_t size : description.Grid.Size)
+    {
+      all.push_back({ 0, size });
+      last.push_back({ static_cast<std::int64_t>(size) - 1, 1 });
+    }
+    voxels.resize(description.GetBytes());
+    std::vector<char> voxel(description.GetVoxelBytes());
+    reader->Read(all, voxels.data());
+    reader->Read(last, voxel.data());
+    FuzzExpect(std::equal(voxel.begin(), voxel.end(), voxels.end() - static_cast<std::ptrdiff_t>(voxel.size())),
+               "a part has other voxels than the whole");
   }
   catch (const std::runtime_error &)
   {
-    FuzzExpect(layout.Encoding == PlainEncoding::Compressed, "voxels that were found cannot be read");
-    return;
+    FuzzExpect(layout.Encoding != PlainEncoding::Raw, "voxels that were found cannot be read");
+    isRead = false;
   }
-  FuzzExpect(std::equal(voxel.begin(), voxel.end(), voxels.end() - static_cast<std::ptrdiff_t>(voxel.size())),
-             "a part has other voxels than the whole");
+  CheckHex(layout, voxels, isRead);
 }
 
 bool
@@ -115,7 +169,7 @@ IsModerate(const ImageGrid & grid)
 void
 CheckRoundTrip(const FuzzFolder & folder, const ImageDescription & description, const OutputOptions & options)
 {
-  const std::uint64_t bytes = description.GetNumberOfVoxels() * description.GetVoxelBytes();
+  const std::uint64_t bytes = description.GetBytes();
   if (bytes > MostBytes || !IsModerate(description.Grid))
   {
     return;
@@ -175,7 +229,7 @@ LLVMFuzzerTestOneInput(const std::uint8_t * const data, const std::size_t size)
   }
   CheckGrid(layout.Description);
   CheckSections(layout);
-  ReadVoxels(path, layout);
+  ReadVoxels(path, isNrrd, layout);
   CheckRoundTrip(folder, layout.Description, options);
   return 0;
 }

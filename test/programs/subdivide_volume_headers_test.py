@@ -51,6 +51,39 @@ class Headers(ProgramTest):
             file.write(content[:352] + b"x" * 48 + content[352:])
         self.assertEqual(self.read("in.nii").values, self.truth)
 
+    def test_nifti_bits_are_those_of_the_type(self):
+        self.patch_nifti(("<h", 72, 32))
+        with open(self.path("in.nii"), "r+b") as file:
+            content = file.read()
+            file.write(content[352:])  # as many bytes as these bits ask for
+            content += content[352:]
+        self.refuse("in.nii", "bitpix", "datatype")
+        os.remove(self.path("in.nii"))
+        with gzip.open(self.path("in.nii.gz"), "wb") as file:
+            file.write(content)
+        self.refuse("in.nii.gz", "bitpix", "datatype")
+
+    def test_nifti_magic_is_that_of_the_files(self):
+        for magic in (b"ni1\0", b"n+2\0", bytes(4)):
+            for offset in (0, 352):  # at 0, the header would be read as voxels
+                self.patch_nifti(("4s", 344, magic), ("<f", 108, offset))
+                self.refuse("in.nii", "magic")
+        self.patch_nifti()
+        with open(self.path("in.nii"), "rb") as file:
+            content = file.read()
+        for header, voxels in (("pair.hdr", "pair.img"), ("half.hdr", "half.img.gz")):
+            for magic, start, word in ((b"n+1\0", 352, "magic"), (b"ni2\0", 0, "magic"), (b"ni1\0", 0, None)):
+                with open(self.path(header), "wb") as file:
+                    file.write(content[:108] + struct.pack("<f", start) + content[112:344] + magic)
+                with (gzip.open if voxels.endswith(".gz") else open)(self.path(voxels), "wb") as file:
+                    file.write(content[352 - start:])
+                for name in (header, voxels):
+                    with self.subTest(name=name, magic=magic):
+                        if word:
+                            self.refuse(name, word)
+                        else:
+                            self.assertEqual(self.read(name).values, self.truth)
+
     def test_a_nifti_slope_of_none(self):
         for name in ("in.nii", "in.nii.gz"):
             self.patch_nifti(("<2f", 112, 0, 7), name="in.nii")

@@ -3,6 +3,7 @@
 #include "headers/DataOwners.h"
 #include "itk/Bitmap.h"
 #include "itk/FileIntegrity.h"
+#include "itk/FileLength.h"
 #include "itk/ItkDescription.h"
 #include "itk/JpegIntegrity.h"
 #include "itk/LibraryReason.h"
@@ -192,10 +193,17 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   }
   m_Description = DescribeByItk(path, *m_ImageIO);
   m_ReadsParts = ReadsRegions(*m_ImageIO);
-  CallLibrary(path, [&] { CheckFileIsWhole(path, *m_ImageIO); });
-  if (IsVtkText(*m_ImageIO))
+  if (library != "VTKImageIO")
+  {
+    CallLibrary(path, [&] { CheckFileIsWhole(path, *m_ImageIO); });
+  }
+  else if (m_ImageIO->GetFileType() == itk::IOFileEnum::ASCII)
   {
     m_Whole = ReadVtkText(path, m_Description);
+  }
+  else
+  {
+    CheckVtkVoxels(path, m_Description);
   }
 }
 

@@ -18,30 +18,20 @@ struct ErrorManager
   char           Text[JMSG_LENGTH_MAX];
 };
 
-void
-KeepText(j_common_ptr decoder)
-{
-  auto * const errors = reinterpret_cast<ErrorManager *>(decoder->err);
-  if (errors->Text[0] == '\0')
-  {
-    decoder->err->format_message(decoder, errors->Text);
-  }
-}
-
 [[noreturn]] void
 EndWithError(j_common_ptr decoder)
 {
-  KeepText(decoder);
-  std::longjmp(reinterpret_cast<ErrorManager *>(decoder->err)->End, 1);
+  auto * const errors = reinterpret_cast<ErrorManager *>(decoder->err);
+  decoder->err->format_message(decoder, errors->Text);
+  std::longjmp(errors->End, 1);
 }
 
 void
 HandleMessage(j_common_ptr decoder, int level)
 {
-  if (level < 0) // a warning of damaged data
+  if (level < 0) // a warning of damaged data, which the library would fill up with grey
   {
-    ++decoder->err->num_warnings;
-    KeepText(decoder);
+    EndWithError(decoder);
   }
 }
 

@@ -108,37 +108,36 @@ CheckRest(const std::string & path, const std::string & word)
   }
 }
 
-void
-CheckPoints(const std::string & path, const VtkHeader & header, const std::uint64_t voxels)
+/** Reads the header, and checks that it says as many points as its dimensions do. */
+VtkHeader
+ReadHeader(const InputFile & file, const ImageDescription & description)
 {
+  const VtkHeader     header = ReadHeader(file);
+  const std::uint64_t voxels = description.GetNumberOfVoxels();
   if (header.Points != 0 && header.Points != voxels)
   {
-    FailToRead(path,
+    FailToRead(file.GetPath(),
                "its header says " + std::to_string(header.Points) +
                  " points (POINT_DATA), but its dimensions are those of " + std::to_string(voxels));
   }
+  return header;
+}
+
+/** Numbers in the file. */
+std::uint64_t
+CountNumbers(const ImageDescription & description)
+{
+  const bool isTensor = description.Kind == VoxelKind::SymmetricTensor;
+  return description.GetNumberOfVoxels() * (isTensor ? TensorNumbers : description.NumberOfComponents);
 }
 } // namespace
 
-bool
-IsVtkText(const itk::ImageIOBase & imageIO)
-{
-  return std::string(imageIO.GetNameOfClass()) == "VTKImageIO" && imageIO.GetFileType() == itk::IOFileEnum::ASCII;
-}
-
 void
-CheckVtk(const std::string & path, itk::ImageIOBase & imageIO)
+CheckVtkVoxels(const std::string & path, const ImageDescription & description)
 {
-  const InputFile file(path);
-  const VtkHeader header = ReadHeader(file);
-  CheckPoints(path, header, static_cast<std::uint64_t>(imageIO.GetImageSizeInPixels()));
-  if (IsVtkText(imageIO))
-  {
-    return;
-  }
-  const bool          isTensor = imageIO.GetPixelType() == itk::IOPixelEnum::SYMMETRICSECONDRANKTENSOR;
-  const auto          bytes = static_cast<std::uint64_t>(imageIO.GetImageSizeInBytes());
-  const std::uint64_t expected = isTensor ? bytes / imageIO.GetNumberOfComponents() * TensorNumbers : bytes;
+  const InputFile     file(path);
+  const VtkHeader     header = ReadHeader(file, description);
+  const std::uint64_t expected = CountNumbers(description) * itk::Subdivision::SizeOf(description.Component);
   const std::uint64_t available = file.GetSize() - header.Size;
   if (available < expected)
   {
@@ -153,12 +152,10 @@ CheckVtk(const std::string & path, itk::ImageIOBase & imageIO)
 std::vector<char>
 ReadVtkText(const std::string & path, const ImageDescription & description)
 {
-  const bool          isTensor = description.Kind == VoxelKind::SymmetricTensor;
-  const std::uint64_t voxels = description.GetNumberOfVoxels();
-  const std::uint64_t count = voxels * (isTensor ? TensorNumbers : description.NumberOfComponents);
+  const std::uint64_t count = CountNumbers(description);
   const std::size_t   elementBytes = itk::Subdivision::SizeOf(description.Component);
   const InputFile     file(path);
-  const VtkHeader     header = ReadHeader(file);
+  const VtkHeader     header = ReadHeader(file, description);
   if (file.GetSize() - header.Size < count)
   {
     FailToRead(path, "it is truncated, with too few characters for " + std::to_string(count) + " numbers");
@@ -172,8 +169,9 @@ ReadVtkText(const std::string & path, const ImageDescription & description)
     place += std::max<std::size_t>(part.size(), 1);
   }
   CheckRest(path, numbers.Finish());
-  if (isTensor)
+  if (description.Kind == VoxelKind::SymmetricTensor)
   {
+    const std::uint64_t                  voxels = description.GetNumberOfVoxels();
     constexpr std::array<std::size_t, 6> upper = { 0, 1, 2, 4, 5, 8 };
     char *                               to = bytes.data();
     for (std::uint64_t voxel = 0; voxel < voxels; ++voxel)

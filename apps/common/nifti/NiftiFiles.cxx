@@ -96,8 +96,10 @@ ListOtherPair(const std::string & path)
   std::vector<fs::path> others;
   for (const fs::path & file : IsNiftiPair(path) ? ListWrittenPair(path) : std::vector<fs::path>{})
   {
-    const bool isCompressed = ToLower(file.extension().string()) == ".gz";
-    others.push_back(isCompressed ? fs::path(file).replace_extension() : fs::path(file.string() + ".gz"));
+    const std::string ending = GetEnding(file.string());
+    const bool        isCompressed = HasEnding(ToLower(ending), ".gz");
+    const char *      gz = ending == ToLower(ending) ? ".gz" : ".GZ";
+    others.push_back(isCompressed ? fs::path(file).replace_extension() : fs::path(file.string() + gz));
   }
   return others;
 }

@@ -3,12 +3,12 @@
 #include "nifti/NiftiFiles.h"
 #include "text/HeaderText.h"
 
-#include "itk_zlib.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+
+#include <zlib.h>
 
 namespace
 {
@@ -81,9 +81,16 @@ NiftiHeader::Get(const std::size_t offset) const
 }
 
 bool
+NiftiHeader::IsNifti() const
+{
+  const char * const magic = m_Bytes.data() + Magic;
+  return m_IsComplete && (std::memcmp(magic, "n+1", 4) == 0 || std::memcmp(magic, "ni1", 4) == 0);
+}
+
+bool
 NiftiHeader::IsSingleFile() const
 {
-  return m_IsComplete && std::memcmp(m_Bytes.data() + Magic, "n+1", 3) == 0;
+  return this->IsNifti() && m_Bytes[Magic + 1] == '+';
 }
 
 bool
@@ -142,11 +149,21 @@ NiftiHeader::GetComponent() const
   }
 }
 
-bool
-NiftiHeader::HasComponentsSideBySide() const
+unsigned int
+NiftiHeader::CountComponentsSideBySide() const
 {
-  const int type = this->Get<std::int16_t>(DataType);
-  return type == Complex64 || type == Complex128 || type == Rgb24 || type == Rgba32;
+  switch (this->Get<std::int16_t>(DataType))
+  {
+    case Complex64:
+    case Complex128:
+      return 2;
+    case Rgb24:
+      return 3;
+    case Rgba32:
+      return 4;
+    default:
+      return 1;
+  }
 }
 
 bool
@@ -162,9 +179,9 @@ NiftiHeader::GetRescaling() const
   const double     stored = this->Get<float>(Slope);
   const double     slope = std::abs(stored) < least ? 1.0 : stored;
   const double     intercept = this->Get<float>(Intercept);
-  const bool       isNifti = m_Bytes[Magic] == 'n'; // Analyze has no slope there
   const bool       changes = std::abs(slope - 1.0) > least || std::abs(intercept) > least;
-  return isNifti && changes ? std::make_optional(std::make_pair(slope, intercept)) : std::nullopt;
+  // Analyze has no slope there.
+  return this->IsNifti() && changes ? std::make_optional(std::make_pair(slope, intercept)) : std::nullopt;
 }
 
 bool
@@ -184,10 +201,13 @@ NiftiHeader::GetDataOffset() const
 std::uint64_t
 NiftiHeader::GetDataBytes() const
 {
-  std::uint64_t bits = this->Get<std::uint16_t>(Bits);
-  for (int axis = 1; axis <= this->Get<std::int16_t>(Dimensions); ++axis)
+  constexpr int           mostAxes = 7; // of a header; where it says more, it is none
+  constexpr std::uint64_t mostBits = std::uint64_t{ 1 } << 60;
+  std::uint64_t           bits = this->Get<std::uint16_t>(Bits);
+  for (int axis = 1; axis <= std::min<int>(mostAxes, this->Get<std::int16_t>(Dimensions)); ++axis)
   {
-    bits *= this->Get<std::uint16_t>(Dimensions + 2 * static_cast<std::size_t>(axis));
+    const std::uint64_t size = this->Get<std::uint16_t>(Dimensions + 2 * static_cast<std::size_t>(axis));
+    bits = size > 0 && bits > mostBits / size ? mostBits : bits * size;
   }
   return bits / 8;
 }
@@ -213,13 +233,24 @@ NiftiHeader::FindFault() const
 {
   constexpr std::uint64_t least = Size + 4; // the header, and whether extensions follow
   const float             intercept = this->Get<float>(Intercept);
+  if (m_Bytes[Magic] == 'n' && !this->IsNifti())
+  {
+    return "its header's magic is neither NIfTI's (n+1, ni1) nor Analyze's; set it to one of these";
+  }
   if (this->IsSingleFile() && this->GetDataOffset() < least)
   {
     return "its header says that its voxels start at byte " + std::to_string(this->GetDataOffset()) +
            ", where the header itself is; they start at 352 or later (vox_offset)";
   }
-  const bool isNifti = m_IsComplete && m_Bytes[Magic] == 'n';
-  if (isNifti && this->Get<float>(Slope) == 0.0f && intercept != 0.0f && std::isfinite(intercept))
+  const auto component = this->GetComponent();
+  const auto bits = std::size_t{ this->Get<std::uint16_t>(Bits) };
+  const auto typeBits = component ? 8 * this->CountComponentsSideBySide() * itk::Subdivision::SizeOf(*component) : bits;
+  if (bits != typeBits)
+  {
+    return "its header says that a voxel has " + std::to_string(bits) + " bits (bitpix), but its type has " +
+           std::to_string(typeBits) + " (datatype); set the wrong one right";
+  }
+  if (this->IsNifti() && this->Get<float>(Slope) == 0.0f && intercept != 0.0f && std::isfinite(intercept))
   {
     return "its header has an intercept of " + FormatReal(intercept) +
            ", but a slope of 0, which programs take in different ways; set scl_slope to 1 or scl_inter to 0";
@@ -284,15 +315,13 @@ NiftiHeader::IsPlacedFinitely() const
 bool
 NiftiHeader::IsPlaced() const
 {
-  return m_IsComplete && m_Bytes[Magic] == 'n' &&
-         (this->Get<std::int16_t>(QuaternionCode) > 0 || this->Get<std::int16_t>(MatrixCode) > 0);
+  return this->IsNifti() && (this->Get<std::int16_t>(QuaternionCode) > 0 || this->Get<std::int16_t>(MatrixCode) > 0);
 }
 
 bool
 NiftiHeader::IsPlacedTwice() const
 {
-  if (!m_IsComplete || m_Bytes[Magic] != 'n' || this->Get<std::int16_t>(QuaternionCode) <= 0 ||
-      this->Get<std::int16_t>(MatrixCode) <= 0)
+  if (!this->IsNifti() || this->Get<std::int16_t>(QuaternionCode) <= 0 || this->Get<std::int16_t>(MatrixCode) <= 0)
   {
     return false;
   }

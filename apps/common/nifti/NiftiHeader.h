@@ -43,9 +43,9 @@ public:
   std::optional<itk::Subdivision::ElementType>
   GetComponent() const;
 
-  /** Whether the components of a voxel stand side by side, else each in a volume of its own. */
-  bool
-  HasComponentsSideBySide() const;
+  /** How many components of a voxel stand side by side; 1 where each has a volume of its own. */
+  unsigned int
+  CountComponentsSideBySide() const;
 
   /** Whether the components are displacements: some versions of ITK turn their signs. */
   bool
@@ -63,6 +63,7 @@ public:
   std::uint64_t
   GetDataOffset() const;
 
+  /** Bytes of the voxels; of more than any file has, some such number. */
   std::uint64_t
   GetDataBytes() const;
 
@@ -71,7 +72,8 @@ public:
   void
   CompleteUnits(ImageGrid & grid) const;
 
-  /** What of it readers take in different ways, so that none can be right; empty if nothing. */
+  /** What of it contradicts the rest, or readers take in different ways, so that none can be right; empty if nothing.
+   */
   std::string
   FindFault() const;
 
@@ -97,6 +99,8 @@ private:
   template <typename T>
   T
   Get(std::size_t offset) const;
+  bool
+  IsNifti() const;
   Matrix
   GetQuaternionMatrix() const;
   Matrix

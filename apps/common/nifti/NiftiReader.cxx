@@ -23,7 +23,7 @@ MakeLayout(const NiftiHeader & header, const std::string & voxels, const ImageDe
   PlainLayout layout;
   layout.Description = description;
   layout.Description.Component = *header.GetComponent();
-  if (description.NumberOfComponents > 1 && !header.HasComponentsSideBySide())
+  if (description.NumberOfComponents > 1 && header.CountComponentsSideBySide() == 1)
   {
     layout.Description.Grid.Size.push_back(description.NumberOfComponents);
     layout.Description.NumberOfComponents = 1;
@@ -151,7 +151,7 @@ OpenPlainNifti(const NiftiHeader & header, const NiftiPair & files, const ImageD
   const bool isNifti = description.Format == "NIfTI" && (header.IsSingleFile() || header.IsOfPair());
   const bool isCompressed = header.IsSingleFile() ? header.IsCompressed() : HasEnding(ToLower(files.Voxels), ".gz");
   const Rescaling rescaling = header.GetRescaling();
-  const bool      isSideBySide = header.HasComponentsSideBySide();
+  const bool      isSideBySide = header.CountComponentsSideBySide() > 1;
   const bool      isKnown = isSideBySide ? description.Kind != VoxelKind::Vector && !rescaling
                                          : description.Kind == VoxelKind::Scalar || description.Kind == VoxelKind::Vector;
   if (!isNifti || isCompressed || !stored || !header.HasDataOffset() || !isKnown || header.HoldsDisplacements())

@@ -23,20 +23,32 @@ ParseWhole(const char * first, const char * last, T & number)
   return result.ec == std::errc() && result.ptr == last;
 }
 
+/** Whether a real number that is out of range is too small, not too large, by the power of ten of its first digit. */
+bool
+IsTooSmall(const char * first, const char * last)
+{
+  const std::string_view text(first, static_cast<std::size_t>(last - first));
+  const auto             end = static_cast<std::int64_t>(std::min(text.find_first_of("eE"), text.size()));
+  const auto             point = std::min(static_cast<std::int64_t>(std::min(text.find('.'), text.size())), end);
+  const auto             digit = static_cast<std::int64_t>(text.find_first_of("123456789"));
+  const std::string_view power = text.substr(std::min(static_cast<std::size_t>(end) + 1, text.size()));
+  std::int64_t           exponent = 0;
+  const bool             isNegative = !power.empty() && power[0] == '-';
+  const std::size_t      sign = !power.empty() && power[0] == '+' ? 1 : 0;
+  const auto             result = std::from_chars(power.data() + sign, power.data() + power.size(), exponent);
+  return result.ec == std::errc::result_out_of_range ? isNegative : exponent < digit - point;
+}
+
 /** A real number nearest to the text; one too small for its type is 0. */
 template <typename T>
 bool
 ParseRounded(const char * first, const char * last, T & number)
 {
   const auto result = std::from_chars(first, last, number);
-  if (result.ptr == last && result.ec == std::errc::result_out_of_range)
+  if (result.ptr == last && result.ec == std::errc::result_out_of_range && IsTooSmall(first, last))
   {
-    long double wide = 0;
-    if (ParseWhole(first, last, wide) && std::abs(wide) < 1)
-    {
-      number = static_cast<T>(wide);
-      return true;
-    }
+    number = *first == '-' ? -T{ 0 } : T{ 0 };
+    return true;
   }
   return result.ptr == last && result.ec == std::errc();
 }
@@ -56,8 +68,8 @@ ParseNumber(const char * first, const char * last, T & number)
     {
       return true;
     }
-    constexpr double exact = 9007199254740992.0; // all integers up to here are doubles
-    const bool       isInteger = ParseWhole(first, last, real) && std::abs(real) <= exact && std::trunc(real) == real;
+    constexpr double exact = 9007199254740992.0; // below it, no other integer has the same double
+    const bool       isInteger = ParseWhole(first, last, real) && std::abs(real) < exact && std::trunc(real) == real;
     const bool       fits = isInteger && real >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
                       real <= static_cast<double>(std::numeric_limits<T>::max());
     number = fits ? static_cast<T>(real) : T{};

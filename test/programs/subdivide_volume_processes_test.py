@@ -7,6 +7,7 @@ import hashlib
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import time
@@ -73,6 +74,27 @@ class Processes(ProgramTest):
                 self.assert_same_at_once("in.mha", f"{ending}.{ending}", number)
         for number in (1, 3, 7, 20):
             self.assert_same_at_once("in.mha", "slices/", number)
+
+    def test_two_runs_to_one_output_leave_that_of_one(self):
+        """A header never stands beside the voxels of the other run."""
+        size = [9, 8, 7]
+        for value in (0, 7):
+            write_meta(self.path(f"{value}.mha"), size, "B", [value] * 504, spacing=[value + 1] * 3)
+        for ending in ("mhd", "nhdr"):
+            for _ in range(15):
+                for name in os.listdir(self.folder):
+                    if name.startswith("out."):
+                        os.remove(self.path(name))
+                runs = [subprocess.Popen([PROGRAM, "--quiet", self.path(f"{value}.mha"), self.path(f"out.{ending}")],
+                                         stderr=subprocess.PIPE, text=True) for value in (0, 7)]
+                self.wait(runs)
+                with open(self.path("out.raw"), "rb") as file:
+                    voxels = file.read()
+                with open(self.path(f"out.{ending}"), encoding="ascii") as file:
+                    spacing = re.search(r"ElementSpacing = ([0-9.]+)|space directions: \(([0-9.]+)", file.read())
+                self.assertEqual(len(voxels), 8 * 504)
+                self.assertEqual(2 * float(spacing.group(1) or spacing.group(2)), voxels[0] + 1)
+                self.assert_nothing_else()
 
     def test_schemes_levels_and_labels(self):
         write_meta(self.path("in.mha"), [9, 8, 7], "H", noise(504, 0, 5))

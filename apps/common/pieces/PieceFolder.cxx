@@ -5,6 +5,7 @@
 #include "pieces/PieceMark.h"
 #include "system/files/DiskSync.h"
 #include "system/files/FileIdentity.h"
+#include "system/files/FolderLock.h"
 #include "system/files/NameExchange.h"
 #include "system/files/UniqueFolder.h"
 #include "system/process/FinishLock.h"
@@ -302,6 +303,7 @@ PieceFolder::Complete(const PieceWriter & writer) const
   PieceAgreement agreement = ReadAgreement(m_Folder / AgreementName);
   agreement.pop_back(); // the identity
   MarkAsComplete(written, Compose(agreement));
+  const FolderLock              alone(m_Output.parent_path()); // against runs to the same output
   const std::optional<fs::path> oldData = writer.FindOldData();
   const auto                    lock = HoldInterrupts();
   this->GiveNames(writer);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plain/PlainWriter.h"
 #include "headers/MetaHeader.h"
+#include "system/files/FolderLock.h"
 #include "volumes/BoxRuns.h"
 
+#include <optional>
 #include <stdexcept>
 
 namespace fs = std::filesystem;
@@ -53,6 +55,8 @@ PlainWriter::Begin(const ImageDescription & description)
   m_DataOffset = m_Header.IsDetached ? 0 : m_Header.Text.size();
   if (m_Header.IsDetached)
   {
+    // Not while another run has named its voxels, and its header not yet.
+    const FolderLock alone(m_Folder->GetOutput().parent_path());
     CheckDataFile(m_Folder->GetOutput(), m_Header.DataName);
     m_Folder->AllowReplacing(m_Header.DataName);
     m_DataFile = std::make_unique<OutputFile>((file.parent_path() / m_Header.DataName).string(), m_Path);
@@ -131,8 +135,10 @@ PlainWriter::Commit()
     m_DataFile->Close();
   }
   CheckPlainFile(m_Folder->GetFileName().string(), m_Path, m_Description);
+  std::optional<FolderLock> alone; // another run to the same output would mix its header with these voxels
   if (m_Header.IsDetached)
   {
+    alone.emplace(m_Folder->GetOutput().parent_path());
     CheckDataFile(m_Folder->GetOutput(), m_Header.DataName);
     if (const auto old = FindOldDataFile(m_Folder->GetOutput(), m_Options.Compress))
     {

@@ -36,8 +36,9 @@ public:
   AddFolder(const fs::path & folder)
   {
     std::error_code error;
-    for (auto entry = fs::recursive_directory_iterator(folder, error); entry != fs::recursive_directory_iterator();
-         entry.increment(error))
+    // Folders that must not be read, as lost+found, hold nothing that is read.
+    auto entry = fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, error);
+    for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error))
     {
       // What runs write for themselves is hidden.
       if (entry->path().filename().string().front() == '.')
@@ -46,6 +47,10 @@ public:
         continue;
       }
       this->Add(entry->path(), entry->path().lexically_relative(folder).string());
+    }
+    if (error)
+    {
+      throw std::runtime_error("cannot list the files of " + folder.string() + ": " + error.message());
     }
   }
 

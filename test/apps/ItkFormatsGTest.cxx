@@ -3,6 +3,7 @@
 #include "TestFolder.h"
 #include "VolumeTestImages.h"
 #include "formats/CreateVolume.h"
+#include "itk/JpegIntegrity.h"
 #include "itk/LibraryReason.h"
 
 #include "itkJPEGImageIO.h"
@@ -216,6 +217,30 @@ TEST(ItkFormatsLimits, CmykIsNotTakenForOtherColours)
   }
   EXPECT_NE(GetError([&] { Open(folder / "a.jpg"); }).find("CMYK"), std::string::npos);
   EXPECT_NE(GetError([&] { Open(folder / "slices"); }).find("a1.jpg: its colours are CMYK"), std::string::npos);
+}
+
+// The library would first make room for all that the header tells of.
+TEST(ItkFormats, AJpegFileWithTooFewBitsForItsSizeIsTruncated)
+{
+  const TestFolder                 folder;
+  const std::vector<unsigned char> pixels(16 * 16, 100);
+  const std::string                path = folder / "a.jpg";
+  const auto                       jpeg = itk::JPEGImageIO::New(); // progressive
+  jpeg->SetFileName(path);
+  jpeg->SetNumberOfDimensions(2);
+  jpeg->SetDimensions(0, 16);
+  jpeg->SetDimensions(1, 16);
+  jpeg->SetComponentType(itk::IOComponentEnum::UCHAR);
+  jpeg->SetNumberOfComponents(1);
+  jpeg->Write(pixels.data());
+  EXPECT_EQ(FindJpegFault(path), "");
+
+  std::string       text = folder.ReadFile("a.jpg");
+  const std::size_t frame = text.find("\xff\xc2");
+  ASSERT_NE(frame, std::string::npos);
+  text.replace(frame + 5, 4, "\xff\xdc\xff\xdc", 4); // 65500 rows and columns
+  folder.WriteFile("a.jpg", text);
+  EXPECT_EQ(FindJpegFault(path), "Premature end of input file");
 }
 
 TEST(ItkFormatsLimits, ATruncatedFileIsNoticed)

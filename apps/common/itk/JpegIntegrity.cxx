@@ -2,11 +2,16 @@
 #include "itk/JpegIntegrity.h"
 
 #include <csetjmp>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <vector>
 
-#include <jpeglib.h> // needs <cstdio> before it
+// They need <cstdio> before them.
+#include <jpeglib.h>
+
+#include <jerror.h>
 
 namespace
 {
@@ -35,12 +40,28 @@ HandleMessage(j_common_ptr decoder, int level)
   }
 }
 
+/** Whether a file has fewer bits than its header says blocks of 8 x 8 pixels, each of which has a bit at least (but in
+ * arithmetic coding). Of a progressive file, the library would first make room for all of them, up to some 25 GB. */
+bool
+LacksBlocks(const jpeg_decompress_struct & decoder, const std::uint64_t bytes)
+{
+  const std::uint64_t blocks = std::uint64_t{ decoder.image_width / 8 } * (decoder.image_height / 8);
+  return decoder.arith_code == FALSE && blocks > 8 * bytes;
+}
+
 /** Nothing with a destructor may live here, where an error jumps out of. */
 void
-Decode(jpeg_decompress_struct & decoder, std::FILE * const file, std::vector<unsigned char> & row)
+Decode(jpeg_decompress_struct &     decoder,
+       std::FILE * const            file,
+       const std::uint64_t          bytes,
+       std::vector<unsigned char> & row)
 {
   jpeg_stdio_src(&decoder, file);
   jpeg_read_header(&decoder, TRUE);
+  if (LacksBlocks(decoder, bytes))
+  {
+    ERREXIT(&decoder, JERR_INPUT_EOF);
+  }
   jpeg_start_decompress(&decoder);
   row.resize(std::size_t{ decoder.output_width } * static_cast<std::size_t>(decoder.output_components));
   while (decoder.output_scanline < decoder.output_height)
@@ -71,7 +92,7 @@ FindJpegFault(const std::string & path)
   if (setjmp(errors.End) == 0)
   {
     jpeg_create_decompress(&decoder);
-    Decode(decoder, file.get(), row);
+    Decode(decoder, file.get(), std::filesystem::file_size(path), row);
   }
   jpeg_destroy_decompress(&decoder);
   return errors.Text;

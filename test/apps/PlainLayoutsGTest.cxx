@@ -265,6 +265,15 @@ TEST(NrrdLayouts, ComponentsComeFirstOrAreMovedThere)
   EXPECT_EQ(rgb->GetDescription().NumberOfComponents, 3u);
   EXPECT_EQ(rgb->GetDescription().Kind, VoxelKind::Rgb);
 
+  const auto tensors = write("6 2 5", "3D-symmetric-matrix domain domain");
+  EXPECT_EQ(tensors->GetDescription().Grid.Size, (std::vector<std::uint64_t>{ 2, 5 }));
+  EXPECT_EQ(tensors->GetDescription().NumberOfComponents, 6u);
+  EXPECT_EQ(tensors->GetDescription().Kind, VoxelKind::SymmetricTensor);
+  EXPECT_NE(GetError([&] { write("5 4 3", "3D-symmetric-matrix domain domain"); }).find("has the size 5"),
+            std::string::npos);
+  EXPECT_NE(GetError([&] { write("6 2 5", "3D-masked-symmetric-matrix domain domain"); }).find("mask"),
+            std::string::npos);
+
   const auto last = write("4 5 3", "domain domain vector");
   EXPECT_EQ(last->GetDescription().Grid.Size, (std::vector<std::uint64_t>{ 4, 5 }));
   EXPECT_EQ(last->GetDescription().NumberOfComponents, 3u);

@@ -139,6 +139,12 @@ TEST(ItkFormatsLimits, WhatCannotBeHeldIsRefusedBeforeAnythingIsComputed)
             std::string::npos);
   EXPECT_NE(getError("a.gipl", MakeUpright({ 65536, 2, 2 }, ElementType::UInt8)).find("up to 65535"),
             std::string::npos);
+  EXPECT_NE(getError("a.mrc", MakeUpright({ 65536, 2, 2 }, ElementType::UInt8)).find("up to 65535"), std::string::npos);
+  WriteVolume(folder / "a.mrc",
+              MakeUpright({ 65535, 1, 1 }, ElementType::UInt8),
+              MakeVoxels(MakeUpright({ 65535, 1, 1 }, ElementType::UInt8)));
+  EXPECT_EQ(ReadAll(folder / "a.mrc"), MakeVoxels(MakeUpright({ 65535, 1, 1 }, ElementType::UInt8)));
+  std::filesystem::remove(folder / "a.mrc");
   auto colours = MakeUpright({ 9, 7, 5 }, ElementType::UInt8);
   colours.NumberOfComponents = 3;
   colours.Kind = VoxelKind::Rgb;

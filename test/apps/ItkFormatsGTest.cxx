@@ -167,6 +167,21 @@ TEST(ItkFormatsLimits, WhatCannotBeHeldIsRefusedBeforeAnythingIsComputed)
   EXPECT_TRUE(folder.GetFiles().empty());
 }
 
+// What JPEG makes of so few voxels would not tell that it changes others.
+TEST(ItkFormatsLimits, JpegFilesOfAnySizeAreWritten)
+{
+  const TestFolder folder;
+  for (const std::uint64_t size : { 1u, 2u, 7u, 8u, 9u, 16u, 40u })
+  {
+    const ImageDescription description = MakeUpright({ size, size }, ElementType::UInt8);
+    std::string            warnings;
+    WriteVolume(
+      folder / "a.jpg", description, MakeVoxels(description), {}, [&](const std::string & text) { warnings += text; });
+    EXPECT_NE(warnings.find("changes the values of voxels"), std::string::npos) << size;
+    EXPECT_EQ(Open(folder / "a.jpg")->GetDescription().Grid.Size, description.Grid.Size);
+  }
+}
+
 TEST(ItkFormatsLimits, AnUnknownEndingListsTheKnownOnes)
 {
   const std::string error = GetError([] { CreateVolume("image.xyz", {}, [](const std::string &) {}); });

@@ -303,6 +303,25 @@ TEST_F(DicomPixelsTest, TruncatedFilesAreNamed)
   }
 }
 
+TEST_F(DicomPixelsTest, RealPixelsAreToldApartFromMissingOnes)
+{
+  for (const auto & [tag, kind, bits] : { std::tuple{ 0x7fe00008U, "OF", 32U }, { 0x7fe00009U, "OD", 64U } })
+  {
+    WriteThree([&, tag = tag, kind = kind, bits = bits](DicomTestData & slice, int) {
+      slice.Remove(0x7fe00010);
+      slice.SetShort(0x00280100, bits);
+      for (const std::uint32_t ofIntegers : { 0x00280101U, 0x00280102U, 0x00280103U })
+      {
+        slice.Remove(ofIntegers);
+      }
+      slice.Set(tag, kind, std::string(Columns * Rows * bits / 8, '\0'));
+    });
+    EXPECT_TRUE(HasWords(GetRefusal(), { "0 holds pixels that are no integers (Float Pixel Data" })) << GetRefusal();
+  }
+  WriteThree([](DicomTestData & slice, int) { slice.Remove(0x7fe00010); });
+  EXPECT_TRUE(HasWords(GetRefusal(), { "has no voxels" }));
+}
+
 TEST_F(DicomPixelsTest, FramesOfAnEnhancedFile)
 {
   DicomTestData file = MakeEnhanced();

@@ -2,6 +2,7 @@
 // Which DICOM files make a volume, and where it lies.
 
 #include "DicomTest.h"
+#include "formats/OpenVolume.h"
 
 using itk::Subdivision::ElementType;
 
@@ -212,6 +213,43 @@ TEST_F(DicomSeriesTest, SeriesAreListedAndChosen)
   {
     options.Series = wanted;
     EXPECT_TRUE(HasWords(GetRefusal(options), { std::string("no DICOM series ") + wanted, "1.2.3.5", "1.2.3.4" }));
+  }
+}
+
+TEST_F(DicomSeriesTest, ChannelsAreNotChosen)
+{
+  const auto getError = [this](const InputOptions & options) -> std::string {
+    try
+    {
+      OpenVolume(m_Folder.string(), options, [](const std::string &) {});
+    }
+    catch (const std::runtime_error & error)
+    {
+      return error.what();
+    }
+    return "";
+  };
+  for (const bool hasColours : { false, true })
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      DicomTestData slice = MakeSlice(i, i);
+      if (hasColours)
+      {
+        slice.Set(0x00280004, "CS", "RGB");
+        slice.SetShort(0x00280002, 3);
+        slice.SetShort(0x00280006, 0);
+        slice.SetBits(8, 8, false);
+        slice.SetPixels(std::vector<std::uint8_t>(3 * Columns * Rows));
+      }
+      slice.Write(m_Folder / std::to_string(i));
+    }
+    InputOptions options;
+    options.Series = "1";
+    options.Frame = 0;
+    EXPECT_EQ(getError(options), "");
+    options.Channel = 0;
+    EXPECT_TRUE(HasWords(getError(options), { m_Folder.string(), "--channel chooses among the channels of a TIFF" }));
   }
 }
 

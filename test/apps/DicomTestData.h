@@ -182,9 +182,9 @@ private:
       {
         value.replace(i, element.Width, std::string(value.rend() - i - element.Width, value.rend() - i));
       }
-      value += std::string(value.size() % 2, element.Kind == "UI" || element.Kind == "OW" ? '\0' : ' ');
+      value += std::string(value.size() % 2, element.Kind == "UI" || element.Kind.front() == 'O' ? '\0' : ' ');
       bytes += Number<std::uint16_t>(tag >> 16, isBig) + Number<std::uint16_t>(tag & 0xffff, isBig);
-      const bool isLong = element.Kind == "OW" || element.Kind == "SQ";
+      const bool isLong = element.Kind.front() == 'O' || element.Kind == "SQ";
       bytes += syntax == Syntax::ImplicitLittle ? "" : element.Kind + (isLong ? std::string(2, '\0') : "");
       bytes += syntax == Syntax::ImplicitLittle || isLong ? Number<std::uint32_t>(value.size(), isBig)
                                                           : Number<std::uint16_t>(value.size(), isBig);

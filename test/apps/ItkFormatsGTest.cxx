@@ -140,6 +140,12 @@ TEST(ItkFormatsLimits, WhatCannotBeHeldIsRefusedBeforeAnythingIsComputed)
             std::string::npos);
   EXPECT_NE(getError("a.gipl", MakeUpright({ 65536, 2, 2 }, ElementType::UInt8)).find("up to 65535"),
             std::string::npos);
+  EXPECT_NE(getError("a.mrc", MakeUpright({ 65536, 2, 2 }, ElementType::UInt8)).find("up to 65535"), std::string::npos);
+  WriteVolume(folder / "a.mrc",
+              MakeUpright({ 65535, 1, 1 }, ElementType::UInt8),
+              MakeVoxels(MakeUpright({ 65535, 1, 1 }, ElementType::UInt8)));
+  EXPECT_EQ(ReadAll(folder / "a.mrc"), MakeVoxels(MakeUpright({ 65535, 1, 1 }, ElementType::UInt8)));
+  std::filesystem::remove(folder / "a.mrc");
   auto colours = MakeUpright({ 9, 7, 5 }, ElementType::UInt8);
   colours.NumberOfComponents = 3;
   colours.Kind = VoxelKind::Rgb;
@@ -160,6 +166,21 @@ TEST(ItkFormatsLimits, WhatCannotBeHeldIsRefusedBeforeAnythingIsComputed)
     EXPECT_EQ(getError("a.tif", description), "");
   }
   EXPECT_TRUE(folder.GetFiles().empty());
+}
+
+// What JPEG makes of so few voxels would not tell that it changes others.
+TEST(ItkFormatsLimits, JpegFilesOfAnySizeAreWritten)
+{
+  const TestFolder folder;
+  for (const std::uint64_t size : { 1u, 2u, 7u, 8u, 9u, 16u, 40u })
+  {
+    const ImageDescription description = MakeUpright({ size, size }, ElementType::UInt8);
+    std::string            warnings;
+    WriteVolume(
+      folder / "a.jpg", description, MakeVoxels(description), {}, [&](const std::string & text) { warnings += text; });
+    EXPECT_NE(warnings.find("changes the values of voxels"), std::string::npos) << size;
+    EXPECT_EQ(Open(folder / "a.jpg")->GetDescription().Grid.Size, description.Grid.Size);
+  }
 }
 
 TEST(ItkFormatsLimits, AnUnknownEndingListsTheKnownOnes)

@@ -138,6 +138,46 @@ TEST_P(PlainFormats, PartsAndThreadsMakeNoDifference)
   EXPECT_TRUE(folder.GetFiles() == files);
 }
 
+// NRRD says what the components mean, where it has a kind for so many of them.
+TEST(NrrdKinds, BothReadersFindTheMeaningOfComponents)
+{
+  struct Meaning
+  {
+    VoxelKind    Written;
+    unsigned int Components;
+    VoxelKind    Read;
+  };
+  const std::vector<Meaning> meanings = { { VoxelKind::Rgb, 3, VoxelKind::Rgb },
+                                          { VoxelKind::Rgba, 4, VoxelKind::Rgba },
+                                          { VoxelKind::Complex, 2, VoxelKind::Complex },
+                                          { VoxelKind::Vector, 6, VoxelKind::Vector },
+                                          { VoxelKind::Vector, 7, VoxelKind::Vector },
+                                          { VoxelKind::SymmetricTensor, 6, VoxelKind::SymmetricTensor },
+                                          { VoxelKind::SymmetricTensor, 3, VoxelKind::Vector },
+                                          { VoxelKind::Rgb, 5, VoxelKind::Vector } };
+  for (const auto & [written, components, read] : meanings)
+  {
+    for (const std::string name : { "image.nrrd", "image.nhdr" })
+    {
+      const TestFolder folder;
+      ImageDescription description = MakeDescription({ 5, 4, 3 }, ElementType::Float, components);
+      description.Kind = written;
+      const auto voxels = MakeVoxels(description);
+      WriteVolume(folder / name, description, voxels);
+      const auto own = Open(folder / name);
+      ItkReader  itkReader(folder / name);
+      for (VolumeReader * const reader : { own.get(), static_cast<VolumeReader *>(&itkReader) })
+      {
+        EXPECT_EQ(reader->GetDescription().Kind, read) << components;
+        EXPECT_EQ(reader->GetDescription().NumberOfComponents, components);
+        ExpectSameGrid(reader->GetDescription().Grid, description.Grid);
+        EXPECT_EQ(ReadVoxels(*reader, GetWholeBox({ 5, 4, 3 })), voxels);
+      }
+      EXPECT_TRUE(own->ReadsParts());
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Endings,
                          PlainFormats,
                          testing::Combine(testing::Values(".mha", ".mhd", ".nrrd", ".nhdr", ".MHA", ".NRRD"),

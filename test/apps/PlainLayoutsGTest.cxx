@@ -221,6 +221,32 @@ TEST(NrrdLayouts, LeftAnteriorSuperior)
   EXPECT_EQ(grid.Directions, (std::vector<std::vector<double>>{ { 1, 0, 0 }, { 0, -1, 0 }, { 0, 0, 1 } }));
 }
 
+// The components of vectors and tensors are turned with the space that they refer to.
+TEST(NrrdLayouts, TheFrameOfComponentsIsTurnedWithTheSpace)
+{
+  const TestFolder folder;
+  const auto       getFrame = [&](const std::string & space, const std::string & frame) {
+    folder.WriteFile("a.nrrd",
+                     MakeNrrdHeader("3 4 5",
+                                    "endian: little\nspace: " + space +
+                                      "\nspace directions: (1,0,0) (0,2,0) (0,0,3)\nmeasurement frame: " + frame +
+                                      "\n\n") +
+                       CountUp(0, 60));
+    const auto reader = Open(folder / "a.nrrd");
+    WriteVolume(folder / "b.nrrd", reader->GetDescription(), ReadVoxels(*reader, GetWholeBox({ 3, 4, 5 })));
+    const std::string field = "\nmeasurement frame: ";
+    const std::string header = folder.ReadFile("b.nrrd");
+    const auto        start = header.find(field);
+    return start == std::string::npos
+                   ? ""
+                   : header.substr(start + field.size(), header.find('\n', start + 1) - start - field.size());
+  };
+  EXPECT_EQ(getFrame("left-posterior-superior", "(1,2,3) (4,5,6) (7,8,9)"), "(1,2,3) (4,5,6) (7,8,9)");
+  EXPECT_EQ(getFrame("RAS", "(1,2,3) (4,5,6) ( 7, 8, 9 )"), "(-1,-2,3) (-4,-5,6) (-7,-8,9)");
+  EXPECT_EQ(getFrame("LAS", "(1,2,3) (4,5,6) (7,-8,9)"), "(1,-2,3) (4,-5,6) (7,8,9)");
+  EXPECT_EQ(getFrame("RAS", "none none none"), "");
+}
+
 // The space of a space with time, which stays the fourth coordinate.
 TEST(NrrdLayouts, SpacesWithTime)
 {
@@ -264,6 +290,15 @@ TEST(NrrdLayouts, ComponentsComeFirstOrAreMovedThere)
   EXPECT_EQ(rgb->GetDescription().Grid.Size, (std::vector<std::uint64_t>{ 4, 5 }));
   EXPECT_EQ(rgb->GetDescription().NumberOfComponents, 3u);
   EXPECT_EQ(rgb->GetDescription().Kind, VoxelKind::Rgb);
+
+  const auto tensors = write("6 2 5", "3D-symmetric-matrix domain domain");
+  EXPECT_EQ(tensors->GetDescription().Grid.Size, (std::vector<std::uint64_t>{ 2, 5 }));
+  EXPECT_EQ(tensors->GetDescription().NumberOfComponents, 6u);
+  EXPECT_EQ(tensors->GetDescription().Kind, VoxelKind::SymmetricTensor);
+  EXPECT_NE(GetError([&] { write("5 4 3", "3D-symmetric-matrix domain domain"); }).find("has the size 5"),
+            std::string::npos);
+  EXPECT_NE(GetError([&] { write("6 2 5", "3D-masked-symmetric-matrix domain domain"); }).find("mask"),
+            std::string::npos);
 
   const auto last = write("4 5 3", "domain domain vector");
   EXPECT_EQ(last->GetDescription().Grid.Size, (std::vector<std::uint64_t>{ 4, 5 }));

@@ -2,6 +2,8 @@
 #include "TestFolder.h"
 #include "TiffTestFile.h"
 #include "VolumeTestAccess.h"
+#include "VolumeTestImages.h"
+#include "itk/JpegOrientation.h"
 #include "slices/SliceFolder.h"
 
 #include <gtest/gtest.h>
@@ -98,6 +100,45 @@ TEST_F(SliceFolderTest, RefusesSlicesThatAreTurnedInDifferentWays)
   write("a2.tif", 6);
   EXPECT_EQ(this->GetOpeningError(), "");
   EXPECT_TRUE(m_Warnings.Mention("orientation 6"));
+}
+
+// JPEG files ask by Exif data: a TIFF file's directory, in either byte order, in a segment of its own.
+TEST_F(SliceFolderTest, JpegSlicesThatAreTurned)
+{
+  const auto write = [&](const std::string & name, std::uint16_t orientation, bool isBigEndian) {
+    ImageDescription description = VolumeTest::MakeDescription({ 8, 8 }, itk::Subdivision::ElementType::UInt8);
+    description.Grid.Directions = { { 1, 0 }, { 0, 1 } };
+    VolumeTest::WriteVolume(m_Folder / name, description, VolumeTest::MakeVoxels(description));
+    const auto number = [isBigEndian](std::uint32_t value, std::size_t bytes) {
+      const std::string all = ToBytes(std::vector<std::uint32_t>{ value }, isBigEndian);
+      return isBigEndian ? all.substr(4 - bytes) : all.substr(0, bytes);
+    };
+    std::string exif("Exif\0\0", 6);
+    exif += (isBigEndian ? "MM" : "II") + number(42, 2) + number(8, 4) + number(2, 2);
+    exif += number(0x128, 2) + number(3, 2) + number(1, 4) + number(2, 2) + number(0, 2);
+    exif += number(0x112, 2) + number(3, 2) + number(1, 4) + number(orientation, 2) + number(0, 2) + number(0, 4);
+    const std::string content = m_Folder.ReadFile(name);
+    const std::string length = { '\0', static_cast<char>(exif.size() + 2) };
+    m_Folder.WriteFile(name, content.substr(0, 2) + "\xFF\xE1" + length + exif + content.substr(2));
+  };
+  write("a1.jpg", 1, true);
+  write("a2.jpg", 1, false);
+  EXPECT_EQ(this->GetOpeningError(), "");
+  EXPECT_EQ(m_Warnings.GetNumber(), 0u);
+  write("a2.jpg", 6, false);
+  EXPECT_TRUE(Contains(this->GetOpeningError(), "a2.jpg asks to be shown in another way (orientation 6)"));
+  write("a1.jpg", 6, true);
+  EXPECT_EQ(this->GetOpeningError(), "");
+  EXPECT_TRUE(m_Warnings.Mention("orientation 6"));
+  KeptWarnings warnings;
+  OpenVolume(m_Folder / "a1.jpg", {}, warnings.GetSink());
+  EXPECT_TRUE(warnings.Mention("a1.jpg asks to be shown turned or flipped (orientation 6)"));
+  for (std::uintmax_t size = 2; size < 60; ++size)
+  {
+    m_Folder.WriteFile("cut.jpg", m_Folder.ReadFile("a1.jpg").substr(0, size));
+    const std::uint16_t orientation = ReadJpegOrientation(m_Folder / "cut.jpg");
+    EXPECT_TRUE(orientation == 1 || orientation == 6) << size;
+  }
 }
 
 TEST_F(SliceFolderTest, TellsOfGaps)

@@ -58,8 +58,7 @@ CheckSections(const PlainLayout & layout)
     bytes += section.Size;
   }
   const ImageDescription & description = layout.Description;
-  FuzzExpect(layout.Encoding != PlainEncoding::Raw ||
-               bytes == description.GetBytes(),
+  FuzzExpect(layout.Encoding != PlainEncoding::Raw || bytes == description.GetBytes(),
              "more or fewer bytes than the voxels have");
 }
 
@@ -110,8 +109,7 @@ CheckHex(const PlainLayout & layout, const std::vector<char> & voxels, const boo
   }
   const auto bytes =
     DecodeHex(layout.Sections[0], itk::Subdivision::SizeOf(layout.Description.Component), layout.IsBigEndian);
-  FuzzExpect(isRead ==
-               (bytes && bytes->size() == layout.Description.GetBytes()),
+  FuzzExpect(isRead == (bytes && bytes->size() == layout.Description.GetBytes()),
              "digits that are right are refused, or the other way round");
   FuzzExpect(!isRead || std::equal(voxels.begin(), voxels.end(), bytes->begin()), "voxels other than their digits");
 }
@@ -191,6 +189,8 @@ CheckRoundTrip(const FuzzFolder & folder, const ImageDescription & description, 
     FuzzExpect(found.Grid.Size == description.Grid.Size && found.Component == description.Component &&
                  found.NumberOfComponents == description.NumberOfComponents,
                "the header that was written says other sizes or types");
+    FuzzExpect(!header.IsNrrd || found.Kind == description.Kind,
+               "the header that was written says that the components mean something else");
     for (std::size_t axis = 0; axis < found.Grid.Size.size(); ++axis)
     {
       const double spacing = description.Grid.Spacing[axis];

@@ -14,6 +14,7 @@
 #include "tiff/TiffStack.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -177,10 +178,11 @@ FuzzDicom(FuzzBytes & bytes)
     header.Rows = 4 + bytes.Below(32) / 31;
     header.BitsAllocated = 16;
     header.InstanceNumber = static_cast<double>(bytes.Below(8));
-    header.PixelSpacing = { { 0.5, (shared & 2) != 0 ? 0.5 : ChooseNumber(bytes) } };
+    const std::array<double, 2> spacing = { 0.5, (shared & 2) != 0 ? 0.5 : ChooseNumber(bytes) };
     for (unsigned int frames = 1 + bytes.Below(8) / 7; frames > 0; --frames)
     {
       DicomFrame frame;
+      frame.PixelSpacing = spacing;
       if ((shared & 4) == 0)
       {
         frame.Position = { { ChooseNumber(bytes), ChooseNumber(bytes), ChooseNumber(bytes) } };

@@ -44,6 +44,8 @@ def headers():
     yield meta(voxels=b"1 -2 3\n" + b"4 " * 9).replace(b"BinaryData = True", b"BinaryData = False")
     yield nrrd(voxels=b"1 -2,3\n" + b"4 " * 9, encoding="text")
     yield nrrd(voxels=VOXELS.hex(" ").encode(), endian="big", encoding="hex")
+    yield nrrd(axes=4, sizes="6 2 3 2", space=LPS.format("LPS", "none "), kind="uchar",
+               more="kinds: 3D-symmetric-matrix domain domain domain\n", voxels=VOXELS * 3)
 
 
 def texts():

@@ -7,7 +7,8 @@ import struct
 import unittest
 
 from subdivide_volume_case import ProgramTest, noise
-from subdivide_volume_files import Meta, write_dicom_slice, write_meta, write_nifti, write_nrrd, write_tiff
+from subdivide_volume_files import (Meta, read_nrrd, write_dicom_slice, write_meta, write_nifti, write_nrrd,
+                                    write_tiff)
 
 SIZE = [7, 6, 5]
 VALUES = noise(7 * 6 * 5)
@@ -123,6 +124,30 @@ class Headers(ProgramTest):
                                                     meta.numbers("Offset")):
                 self.assertAlmostEqual(found, wanted / 2)
                 self.assertAlmostEqual(origin, start - wanted / 4)
+
+    def test_symmetric_tensors_of_nrrd_stay_such(self):
+        values = noise(6 * len(VALUES))
+        write_nrrd(self.path("in.nrrd"), [6, *SIZE], "h", values, more=["kinds: 3D-symmetric-matrix domain domain domain"])
+        write_meta(self.path("vectors.mha"), SIZE, "h", values, channels=6)
+        truth = self.meta("vectors.mha", "out.mha").data
+
+        def check(name):
+            header, data = read_nrrd(self.path(name))
+            if name.endswith(".nhdr"):
+                with open(self.path("out.raw"), "rb") as file:
+                    data = file.read()
+            self.assertIn("kinds: 3D-symmetric-matrix domain domain domain", header)
+            self.assertEqual(data, truth)
+
+        for name, *options in (["out.nrrd"], ["out.nhdr"], ["out.nrrd", "--streams", 3], ["out.nrrd", "--compress"]):
+            self.subdivide("in.nrrd", name, *options)
+            check(name)
+        for name in ("pieces.nrrd", "out.nhdr"):
+            for piece in ("2/2", "1/2"):
+                result = self.run_program("--piece", piece, self.path("in.nrrd"), self.path(name))
+                self.assertEqual(result.returncode, 0, result.stderr)
+            check(name)
+        self.subdivide("pieces.nrrd", "again.nrrd")
 
     def test_an_nrrd_encoding_that_is_not_read(self):
         write_nrrd(self.path("in.nrrd"), SIZE, "h", VALUES, encoding="bzip2")

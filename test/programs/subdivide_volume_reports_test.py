@@ -211,6 +211,12 @@ class Words(Reports):
                                      ("--axes", "xw", "xw"), ("--channel", "-1", "-1")):
             self.assert_fails(self.run_program(*self.files, option, value), 2, option, words)
 
+    def test_an_origin_is_a_number_for_each_axis_as_its_help_says(self):
+        text = " ".join(self.run_program("--help").stdout.split())
+        self.assertRegex(text, r"--origin NUMBERS The place of the first voxel[^-]*: one number for each axis")
+        self.assert_fails(self.run_program(*self.files, "--origin", "5"), 1, "--origin 5", "3 numbers are needed")
+        self.subdivide("in.mha", "out.mha", "--origin", "5,6,7")
+
     def test_the_tension_of_the_restored_scheme(self):
         for tension in ("0", "0.5", "1", "7"):
             self.subdivide("in.mha", "out.mha", "--scheme", "restored", "--tension", tension)

@@ -23,7 +23,8 @@ ParseNumbers(const std::string & text)
   {
     if (!IsNumber(word) || !std::isfinite(std::stod(word)))
     {
-      throw std::invalid_argument("it must be a number, or one for each axis such as 0.02,0.02,0.05, not " + text);
+      throw std::invalid_argument("it must be made of numbers with commas between, such as 0.02,0.02,0.05, not " +
+                                  text);
     }
     numbers.push_back(std::stod(word));
   }
@@ -225,7 +226,12 @@ AddInputOptions(CLI::App & app, InputOptions & options)
             options.Spacing,
             ParseSpacing,
             "The distance between voxels, instead of the file's: one number, or one for each axis with commas between");
-  AddParsed(app, "--origin", "NUMBERS", options.Origin, ParseNumbers, "The place of the first voxel, likewise");
+  AddParsed(app,
+            "--origin",
+            "NUMBERS",
+            options.Origin,
+            ParseNumbers,
+            "The place of the first voxel, instead of the file's: one number for each axis with commas between");
   AddParsed(app,
             "--channel",
             "NUMBER",

@@ -2,6 +2,7 @@
 #include "dicom/Dicom.h"
 
 #ifdef APPS_HAVE_GDCM
+#  include "dicom/DicomCopies.h"
 #  include "dicom/DicomReader.h"
 #  include "system/files/RegularInput.h"
 #endif

@@ -66,6 +66,12 @@ AreClose(const std::optional<std::array<double, Size>> & a,
   return true;
 }
 
+bool
+IsIdentity(const DicomSlice & slice)
+{
+  return slice.GetFrame().Slope == 1 && slice.GetFrame().Intercept == 0;
+}
+
 void
 CheckSlicesAreAlike(const std::vector<DicomSlice> & slices)
 {
@@ -80,8 +86,12 @@ CheckSlicesAreAlike(const std::vector<DicomSlice> & slices)
     return AreClose(a.GetFrame().Orientation, b.GetFrame().Orientation, angle);
   });
   CheckAllAlike(slices, "spacing of the pixels", [](const DicomSlice & a, const DicomSlice & b) {
-    const auto & spacing = a.Header->PixelSpacing;
-    return AreClose(spacing, b.Header->PixelSpacing, spacing ? 1e-4 * (*spacing)[0] : 0);
+    const auto & spacing = a.GetFrame().PixelSpacing;
+    return AreClose(spacing, b.GetFrame().PixelSpacing, spacing ? 1e-4 * (*spacing)[0] : 0);
+  });
+  // Numbers that are stored alike would be values of other units.
+  CheckAllAlike(slices, "whether they tell a slope and an intercept", [](const DicomSlice & a, const DicomSlice & b) {
+    return a.GetFrame().IsRescaleTold == b.GetFrame().IsRescaleTold || (IsIdentity(a) && IsIdentity(b));
   });
   CheckAllAlike(slices, "that they have no position", [](const DicomSlice & a, const DicomSlice & b) {
     return a.GetFrame().Position.has_value() == b.GetFrame().Position.has_value();
@@ -140,9 +150,9 @@ SetDirections(const DicomSlice & slice, ImageGrid & grid, const WarningSink & wa
 }
 
 void
-SetSpacingInPlane(const DicomHeader & header, ImageGrid & grid, const WarningSink & warn)
+SetSpacingInPlane(const DicomFrame & frame, ImageGrid & grid, const WarningSink & warn)
 {
-  const auto & spacing = header.PixelSpacing;
+  const auto & spacing = frame.PixelSpacing;
   if (!spacing)
   {
     warn("the DICOM files do not tell the spacing of the pixels; 1 is taken");
@@ -174,21 +184,22 @@ ArrangeDicomSlices(const DicomSeries & series, const InputOptions & options, con
   const DicomHeader & first = series.Headers.front();
   ImageGrid &         grid = volume.Grid;
   SetDirections(volume.Slices.front(), grid, warn);
-  SetSpacingInPlane(first, grid, warn);
+  SetSpacingInPlane(volume.Slices.front().GetFrame(), grid, warn);
   const double pixel = std::min(grid.Spacing[0], grid.Spacing[1]);
-  double       spacing = std::abs(first.SliceSpacing.value_or(0));
-  spacing = spacing > 0 ? spacing : 1;
   if (volume.Slices.front().GetFrame().Position)
   {
     volume.Slices = ChoosePhase(std::move(volume.Slices), pixel, options.Frame);
-    spacing = volume.Slices.size() > 1 ? CheckPositions(volume.Slices, pixel) : spacing;
   }
   else
   {
     volume.Slices = ArrangeWithoutPositions(std::move(volume.Slices), options, warn);
   }
-  grid.Spacing.push_back(spacing);
-  const auto origin = volume.Slices.front().GetFrame().Position.value_or(std::array<double, 3>{});
+  const DicomFrame & bottom = volume.Slices.front().GetFrame();
+  const double       told = std::abs(bottom.SliceSpacing.value_or(0));
+  grid.Spacing.push_back(volume.Slices.size() > 1 && bottom.Position ? CheckPositions(volume.Slices, pixel)
+                         : told > 0                                  ? told
+                                                                     : 1);
+  const auto origin = bottom.Position.value_or(std::array<double, 3>{});
   grid.Origin.assign(origin.begin(), origin.end());
   grid.Size = { first.Columns, first.Rows, volume.Slices.size() };
   return volume;

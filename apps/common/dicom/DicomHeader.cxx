@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dicom/DicomHeader.h"
+#include "dicom/DicomFrames.h"
 #include "dicom/DicomTags.h"
 
 #include "gdcmFile.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -119,172 +119,6 @@ FailOfDamage(const fs::path & path)
   Fail(path, "the DICOM file is damaged; if it does not belong to the volume, move it elsewhere");
 }
 
-template <std::size_t Size>
-std::optional<std::array<double, Size>>
-GetArray(const gdcm::DataSet & data, const Tag & tag)
-{
-  const std::vector<double> numbers = GetDicomNumbers(data, tag);
-  if (numbers.size() != Size)
-  {
-    return std::nullopt;
-  }
-  std::array<double, Size> array = {};
-  std::copy(numbers.begin(), numbers.end(), array.begin());
-  return array;
-}
-
-/** Attributes as they stand in the file itself, or in an item that a frame or all frames have for them. */
-void
-ReadFrame(const gdcm::DataSet & data, DicomFrame & frame)
-{
-  if (const auto position = GetArray<3>(data, Tag(0x0020, 0x0032)))
-  {
-    frame.Position = position;
-  }
-  if (const auto orientation = GetArray<6>(data, Tag(0x0020, 0x0037)))
-  {
-    frame.Orientation = orientation;
-  }
-  frame.Slope = GetDicomNumber(data, Tag(0x0028, 0x1053)).value_or(frame.Slope);
-  frame.Intercept = GetDicomNumber(data, Tag(0x0028, 0x1052)).value_or(frame.Intercept);
-}
-
-void
-ReadSpacing(const gdcm::DataSet & data, DicomHeader & header)
-{
-  // At the patient where it is known, else at the detector: DICOM gives the distance of the rows first.
-  for (const Tag & tag : { Tag(0x0028, 0x0030), Tag(0x0018, 0x1164), Tag(0x0018, 0x2010) })
-  {
-    const auto spacing = GetArray<2>(data, tag);
-    if (spacing && !header.PixelSpacing)
-    {
-      header.PixelSpacing = { (*spacing)[1], (*spacing)[0] };
-    }
-  }
-  for (const Tag & tag : { Tag(0x0018, 0x0088), Tag(0x0018, 0x0050) })
-  {
-    if (!header.SliceSpacing)
-    {
-      header.SliceSpacing = GetDicomNumber(data, tag);
-    }
-  }
-}
-
-/** The items of "functional groups": what enhanced files say of a frame, or of all. */
-void
-ReadFunctionalGroups(const gdcm::DataSet & groups, DicomHeader & header, DicomFrame & frame)
-{
-  for (const Tag & tag : { Tag(0x0020, 0x9113), Tag(0x0020, 0x9116), Tag(0x0028, 0x9145) })
-  {
-    for (const gdcm::DataSet & item : GetDicomItems(groups, tag))
-    {
-      ReadFrame(item, frame);
-    }
-  }
-  for (const gdcm::DataSet & item : GetDicomItems(groups, Tag(0x0028, 0x9110)))
-  {
-    ReadSpacing(item, header);
-  }
-  for (const gdcm::DataSet & item : GetDicomItems(groups, Tag(0x0020, 0x9111)))
-  {
-    frame.PhaseKey.push_back(GetDicomLong(item, Tag(0x0020, 0x9128)).value_or(0));
-    frame.PhaseKey.push_back(GetDicomShort(item, Tag(0x0020, 0x9156)).value_or(0));
-  }
-}
-
-/** Numbers that tell phases, echoes and repeated acquisitions at one position apart, the most telling one first. */
-std::vector<double>
-ReadPhaseKey(const gdcm::DataSet & data)
-{
-  std::vector<double> key;
-  for (const Tag & tag : { Tag(0x0020, 0x0100),
-                           Tag(0x0018, 0x1060),
-                           Tag(0x0018, 0x0086),
-                           Tag(0x0020, 0x0012),
-                           Tag(0x0008, 0x0032),
-                           Tag(0x0020, 0x0013) })
-  {
-    key.push_back(GetDicomNumber(data, tag).value_or(0));
-  }
-  return key;
-}
-
-/** Frames that lie on a common normal, at distances from the first: doses, and nuclear medicine. */
-void
-PlaceFramesAlongNormal(const gdcm::DataSet & data, DicomHeader & header)
-{
-  std::vector<double> offsets = GetDicomNumbers(data, Tag(0x3004, 0x000c));
-  const auto          spacing = GetDicomNumber(data, Tag(0x0018, 0x0088));
-  if (offsets.empty() && spacing && !GetDicomItems(data, Tag(0x0054, 0x0022)).empty())
-  {
-    for (std::size_t i = 0; i < header.Frames.size(); ++i)
-    {
-      offsets.push_back(static_cast<double>(i) * *spacing);
-    }
-  }
-  if (offsets.size() != header.Frames.size())
-  {
-    for (DicomFrame & frame : header.Frames)
-    {
-      frame.Position.reset(); // one position is not that of all
-    }
-    return;
-  }
-  for (std::size_t i = 0; i < offsets.size(); ++i)
-  {
-    DicomFrame & frame = header.Frames[i];
-    if (frame.Position && frame.Orientation)
-    {
-      const auto & [a, b, c, d, e, f] = *frame.Orientation;
-      const double distance = offsets[i] - offsets[0];
-      (*frame.Position)[0] += distance * (b * f - c * e);
-      (*frame.Position)[1] += distance * (c * d - a * f);
-      (*frame.Position)[2] += distance * (a * e - b * d);
-    }
-  }
-}
-
-void
-ReadFrames(const gdcm::DataSet & data, DicomHeader & header)
-{
-  DicomFrame common;
-  ReadFrame(data, common);
-  common.Slope = GetDicomNumber(data, Tag(0x3004, 0x000e)).value_or(common.Slope);
-  for (const gdcm::DataSet & detector : GetDicomItems(data, Tag(0x0054, 0x0022)))
-  {
-    ReadFrame(detector, common);
-  }
-  common.PhaseKey = ReadPhaseKey(data);
-  for (const gdcm::DataSet & shared : GetDicomItems(data, Tag(0x5200, 0x9229)))
-  {
-    ReadFunctionalGroups(shared, header, common);
-  }
-  const double number = GetDicomNumber(data, Tag(0x0028, 0x0008)).value_or(1);
-  if (!(number >= 1 && number <= 1e6 && number == std::floor(number)))
-  {
-    throw std::runtime_error("its number of frames is " + GetDicomText(data, Tag(0x0028, 0x0008)));
-  }
-  header.Frames.assign(static_cast<std::size_t>(number), common);
-  const std::vector<gdcm::DataSet> groups = GetDicomItems(data, Tag(0x5200, 0x9230));
-  if (!groups.empty() && groups.size() != header.Frames.size())
-  {
-    throw std::runtime_error("it has " + std::to_string(header.Frames.size()) + " frames, but tells of " +
-                             std::to_string(groups.size()) + " what they are");
-  }
-  for (std::size_t i = 0; i < groups.size(); ++i)
-  {
-    ReadFunctionalGroups(groups[i], header, header.Frames[i]);
-  }
-  for (std::size_t i = 0; i < header.Frames.size(); ++i)
-  {
-    header.Frames[i].PhaseKey.push_back(static_cast<double>(i));
-  }
-  if (header.Frames.size() > 1 && groups.empty())
-  {
-    PlaceFramesAlongNormal(data, header);
-  }
-}
-
 DicomHeader
 ReadAttributes(const gdcm::DataSet & data)
 {
@@ -304,8 +138,8 @@ ReadAttributes(const gdcm::DataSet & data)
   header.HighBit = GetDicomShort(data, Tag(0x0028, 0x0102)).value_or(header.BitsStored - 1);
   header.IsSigned = GetDicomShort(data, Tag(0x0028, 0x0103)).value_or(0) == 1;
   header.HasValueTable = data.FindDataElement(Tag(0x0028, 0x3000));
-  ReadSpacing(data, header);
-  ReadFrames(data, header);
+  header.HasRealPixels = data.FindDataElement(Tag(0x7fe0, 0x0008)) || data.FindDataElement(Tag(0x7fe0, 0x0009));
+  ReadDicomFrames(data, header);
   return header;
 }
 } // namespace

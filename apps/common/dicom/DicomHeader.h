@@ -13,9 +13,12 @@
 /** An image of one plane, as a DICOM file describes it: a slice, or a frame of several. */
 struct DicomFrame
 {
-  std::optional<std::array<double, 3>> Position;    // mm, of the centre of the first voxel
-  std::optional<std::array<double, 6>> Orientation; // of the rows, then of the columns
-  double                               Slope = 1;   // value = slope * stored + intercept
+  std::optional<std::array<double, 3>> Position;     // mm, of the centre of the first voxel
+  std::optional<std::array<double, 6>> Orientation;  // of the rows, then of the columns
+  std::optional<std::array<double, 2>> PixelSpacing; // mm, along x and y
+  std::optional<double>                SliceSpacing; // mm, from slice to slice or of one slice
+  bool                                 IsRescaleTold = false;
+  double                               Slope = 1; // value = slope * stored + intercept
   double                               Intercept = 0;
   std::vector<double>                  PhaseKey; // sorts the images that stand at one position
 };
@@ -42,10 +45,9 @@ struct DicomHeader
   bool                  IsBigEndian = false;
   bool                  IsTruncated = false;   // the file ends before its last voxel
   bool                  HasValueTable = false; // a Modality LUT Sequence
+  bool                  HasRealPixels = false; // Float Pixel Data, or Double Float Pixel Data
 
-  std::optional<std::array<double, 2>> PixelSpacing; // mm, along x and y
-  std::optional<double>                SliceSpacing; // mm, from slice to slice or of one slice
-  std::vector<DicomFrame>              Frames;       // at least one
+  std::vector<DicomFrame> Frames; // at least one
 
   std::uint64_t
   GetFrameBytes() const

@@ -3,8 +3,8 @@
 #include "system/process/WatchedTask.h"
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
-#include <tuple>
 
 namespace fs = std::filesystem;
 
@@ -124,24 +124,4 @@ ChooseDicomSeries(const std::string & path, std::vector<DicomSeries> all, const 
     }
   }
   throw std::runtime_error(start + "there is no DICOM series " + wanted + " among those it holds: " + DescribeAll(all));
-}
-
-void
-LeaveOutCopies(DicomSeries & series, const WarningSink & warn)
-{
-  std::map<std::string, fs::path> seen;
-  std::vector<DicomHeader>        kept;
-  for (DicomHeader & header : series.Headers)
-  {
-    const auto [first, isNew] = seen.emplace(header.InstanceUid, header.FileName);
-    if (isNew || header.InstanceUid.empty())
-    {
-      kept.push_back(std::move(header));
-    }
-    else
-    {
-      warn(header.FileName.string() + " is left out: it holds the same image as " + first->second.string());
-    }
-  }
-  series.Headers = std::move(kept);
 }

@@ -28,8 +28,4 @@ FindDicomSeries(const std::string & path);
 DicomSeries
 ChooseDicomSeries(const std::string & path, std::vector<DicomSeries> all, const std::string & wanted);
 
-/** Leaves out files that are copies of others: of one instance UID. */
-void
-LeaveOutCopies(DicomSeries & series, const WarningSink & warn);
-
 #endif

@@ -114,6 +114,11 @@ Refuse(const DicomHeader & header, const std::string & reason)
 void
 CheckPixels(const DicomHeader & header)
 {
+  if (header.HasRealPixels)
+  {
+    Refuse(header,
+           "holds pixels that are no integers (Float Pixel Data, or Double Float Pixel Data), which are not supported");
+  }
   const std::string & colours = header.Photometric;
   const bool          isGrey = colours == "MONOCHROME1" || colours == "MONOCHROME2";
   if ((!isGrey || header.Samples != 1) && (colours != "RGB" || header.Samples != 3))

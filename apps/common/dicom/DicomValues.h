@@ -8,7 +8,7 @@
 #include <vector>
 
 /** Refuses files whose pixels are not all there or cannot be given as they are meant: palettes, luminance and
- * chrominance, single bits.
+ * chrominance, single bits, real numbers.
  * \throw std::runtime_error */
 void
 CheckPixels(const DicomHeader & header);

@@ -2,6 +2,7 @@
 #include "formats/Formats.h"
 #include "itk/ItkReader.h"
 #include "itk/ItkWriter.h"
+#include "itk/JpegOrientation.h"
 #include "nifti/NiftiFiles.h"
 #include "nifti/NiftiHeader.h"
 #include "nifti/NiftiReader.h"
@@ -41,6 +42,19 @@ OpenAnyNrrd(const std::string & path, const InputOptions & options, const Warnin
     }
     return reader;
   }
+}
+
+std::unique_ptr<VolumeReader>
+OpenJpeg(const std::string & path, const InputOptions & options, const WarningSink & warn)
+{
+  auto                reader = OpenByItk(path, options, warn);
+  const std::uint16_t orientation = ReadJpegOrientation(path);
+  if (orientation != 1)
+  {
+    warn(path + " asks to be shown turned or flipped (orientation " + std::to_string(orientation) +
+         "): its rows are read as they are stored");
+  }
+  return reader;
 }
 
 std::unique_ptr<VolumeReader>
@@ -91,7 +105,7 @@ GetVolumeFormats()
     { "MRC", { ".mrc", ".rec" }, OpenByItk, Create<ItkWriter>, true, false, false },
     { "MINC", { ".mnc" }, OpenByItk, Create<ItkWriter>, false, false, true },
     { "PNG", { ".png" }, OpenByItk, Create<ItkWriter>, false, false, true },
-    { "JPEG", { ".jpg", ".jpeg" }, OpenByItk, Create<ItkWriter>, false, false, true },
+    { "JPEG", { ".jpg", ".jpeg" }, OpenJpeg, Create<ItkWriter>, false, false, true },
     { "BMP", { ".bmp" }, OpenByItk, Create<ItkWriter>, false, false, false },
     { "TIFF", { ".tif", ".tiff" }, OpenTiff, CreateTiff, true, true, true },
   };

@@ -13,17 +13,36 @@
 
 namespace
 {
-/** A choice that a file does not offer is not passed over. */
-void
-RefuseChoices(const std::string & path, const InputOptions & options)
+/** What of an input its kind lets the user choose. */
+struct Choices
 {
-  if (!options.Series.empty())
+  bool Series = false;
+  bool Channel = false;
+  bool Frame = false;
+};
+
+constexpr Choices NoChoices;
+constexpr Choices TiffChoices = { false, true, true };
+constexpr Choices DicomChoices = { true, false, true };
+
+/** A choice that an input does not offer is not passed over. */
+void
+RefuseOtherChoices(const std::string & path, const InputOptions & options, const Choices & offered)
+{
+  if (!offered.Series && !options.Series.empty())
   {
     FailToRead(path, "--series chooses among the DICOM series of a folder, and it is none");
   }
-  if (options.Channel || options.Frame)
+  if (!offered.Channel && options.Channel)
   {
-    FailToRead(path, "--channel and --frame choose among the pages of TIFF files and the images of DICOM series");
+    FailToRead(path, "--channel chooses among the channels of a TIFF file, and it is none");
+  }
+  if (!offered.Frame && options.Frame)
+  {
+    FailToRead(
+      path,
+      "--frame chooses among the frames of a TIFF file or the images at one position of a DICOM series, and it "
+      "is neither");
   }
 }
 
@@ -40,6 +59,7 @@ OpenFolder(const std::string & path, const InputOptions & options, const Warning
 {
   if (!HoldsSlices(path))
   {
+    RefuseOtherChoices(path, options, DicomChoices);
     return OpenDicom(path, options, warn);
   }
   std::error_code                 error;
@@ -58,6 +78,7 @@ OpenFolder(const std::string & path, const InputOptions & options, const Warning
                    ", and pictures; put those that make the volume into a folder of their own");
     }
   }
+  RefuseOtherChoices(path, options, NoChoices);
   return OpenSliceFolder(path, options, warn);
 }
 
@@ -66,6 +87,7 @@ OpenAny(const std::string & path, const InputOptions & options, const WarningSin
 {
   if (options.Raw)
   {
+    RefuseOtherChoices(path, options, NoChoices);
     return OpenRaw(path, options, warn);
   }
   if (std::filesystem::is_directory(path))
@@ -74,14 +96,16 @@ OpenAny(const std::string & path, const InputOptions & options, const WarningSin
   }
   if (IsDicomFile(path) || HasDicomEnding(path))
   {
+    RefuseOtherChoices(path, options, DicomChoices);
     return OpenDicom(path, options, warn);
   }
   const VolumeFormat * const format = FindVolumeFormat(path);
   if (format != nullptr && format->Reader == OpenTiff)
   {
+    RefuseOtherChoices(path, options, TiffChoices);
     return OpenTiff(path, options, warn);
   }
-  RefuseChoices(path, options);
+  RefuseOtherChoices(path, options, NoChoices);
   return format != nullptr && format->Reader != nullptr ? format->Reader(path, options, warn)
                                                         : OpenByItk(path, options, warn);
 }

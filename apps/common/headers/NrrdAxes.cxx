@@ -170,10 +170,19 @@ bool
 NrrdAxes::FindComponents(ImageDescription & description) const
 {
   static const std::map<std::string, VoxelKind> componentKinds = {
-    { "rgb-color", VoxelKind::Rgb },           { "rgba-color", VoxelKind::Rgba },   { "complex", VoxelKind::Complex },
-    { "vector", VoxelKind::Vector },           { "2-vector", VoxelKind::Vector },   { "3-vector", VoxelKind::Vector },
-    { "4-vector", VoxelKind::Vector },         { "list", VoxelKind::Vector },       { "point", VoxelKind::Vector },
-    { "covariant-vector", VoxelKind::Vector }, { "3-gradient", VoxelKind::Vector }, { "3-normal", VoxelKind::Vector },
+    { "rgb-color", VoxelKind::Rgb },
+    { "rgba-color", VoxelKind::Rgba },
+    { "complex", VoxelKind::Complex },
+    { "vector", VoxelKind::Vector },
+    { "2-vector", VoxelKind::Vector },
+    { "3-vector", VoxelKind::Vector },
+    { "4-vector", VoxelKind::Vector },
+    { "list", VoxelKind::Vector },
+    { "point", VoxelKind::Vector },
+    { "covariant-vector", VoxelKind::Vector },
+    { "3-gradient", VoxelKind::Vector },
+    { "3-normal", VoxelKind::Vector },
+    { "3d-symmetric-matrix", VoxelKind::SymmetricTensor },
   };
   for (std::size_t axis = 0; axis < m_Kinds.size(); ++axis)
   {
@@ -205,10 +214,11 @@ NrrdAxes::FindComponents(ImageDescription & description) const
 unsigned int
 NrrdAxes::GetComponents(const std::string & kind) const
 {
-  static const std::map<std::string, std::uint64_t> due = { { "rgb-color", 3 },  { "rgba-color", 4 }, { "complex", 2 },
-                                                            { "2-vector", 2 },   { "3-vector", 3 },   { "4-vector", 4 },
-                                                            { "3-gradient", 3 }, { "3-normal", 3 } };
-  const auto                                        found = due.find(kind);
+  static const std::map<std::string, std::uint64_t> due = {
+    { "rgb-color", 3 }, { "rgba-color", 4 }, { "complex", 2 },  { "2-vector", 2 },           { "3-vector", 3 },
+    { "4-vector", 4 },  { "3-gradient", 3 }, { "3-normal", 3 }, { "3d-symmetric-matrix", 6 }
+  };
+  const auto found = due.find(kind);
   if ((found != due.end() && found->second != m_Sizes[0]) || m_Sizes[0] > 1000000)
   {
     FailToRead(m_Path, "its axis of the kind " + kind + " has the size " + std::to_string(m_Sizes[0]));

@@ -14,22 +14,28 @@ GetTypeName(ElementType type)
   return names[static_cast<std::size_t>(type)];
 }
 
+/** NRRD has kinds for a number of components each; all others are vectors. */
 const char *
-GetKindName(VoxelKind kind)
+GetKindName(const ImageDescription & description)
 {
-  switch (kind)
+  struct Kind
   {
-    case VoxelKind::Rgb:
-      return "RGB-color";
-    case VoxelKind::Rgba:
-      return "RGBA-color";
-    case VoxelKind::Complex:
-      return "complex";
-    case VoxelKind::SymmetricTensor:
-      return "3D-symmetric-matrix";
-    default:
-      return "vector";
+    VoxelKind    Meaning;
+    unsigned int Components;
+    const char * Name;
+  };
+  static constexpr Kind kinds[] = { { VoxelKind::Rgb, 3, "RGB-color" },
+                                    { VoxelKind::Rgba, 4, "RGBA-color" },
+                                    { VoxelKind::Complex, 2, "complex" },
+                                    { VoxelKind::SymmetricTensor, 6, "3D-symmetric-matrix" } };
+  for (const Kind & kind : kinds)
+  {
+    if (kind.Meaning == description.Kind && kind.Components == description.NumberOfComponents)
+    {
+      return kind.Name;
+    }
   }
+  return "vector";
 }
 
 std::string
@@ -51,7 +57,7 @@ ComposeAxes(const ImageDescription & description)
   const bool        hasComponents = description.NumberOfComponents > 1;
   std::string       sizes = hasComponents ? " " + std::to_string(description.NumberOfComponents) : "";
   std::string       directions = hasComponents ? " none" : "";
-  std::string       kinds = hasComponents ? std::string(" ") + GetKindName(description.Kind) : "";
+  std::string       kinds = hasComponents ? std::string(" ") + GetKindName(description) : "";
   for (std::size_t axis = 0; axis < grid.Size.size(); ++axis)
   {
     sizes += " " + std::to_string(grid.Size[axis]);

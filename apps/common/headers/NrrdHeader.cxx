@@ -7,6 +7,8 @@
 #include "text/HeaderText.h"
 #include "volumes/DescriptionCheck.h"
 
+#include <algorithm>
+
 namespace
 {
 using itk::Subdivision::ElementType;
@@ -100,21 +102,44 @@ FindDataFiles(const std::string & path, const NrrdFields & fields)
   return { value };
 }
 
-/** What the header says besides the grid. A space that was turned into LPS is none of it, nor is what refers to it. */
+/** The frame that components of vectors and tensors refer to, turned into LPS; empty if it is none of three axes. */
+std::string
+TurnMeasurementFrame(const std::string & path, std::string text, const std::vector<double> & signs)
+{
+  std::replace_if(text.begin(), text.end(), [](char c) { return c == '(' || c == ',' || c == ')'; }, ' ');
+  constexpr std::size_t axes = 3;
+  if (SplitWords(text).size() != axes * axes)
+  {
+    return {};
+  }
+  const auto  numbers = ParseReals(path, "measurement frame", text, axes * axes);
+  std::string turned;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    turned += (i % axes > 0 ? "," : i > 0 ? ") (" : "(") + FormatReal(signs[i % axes] * numbers[i]);
+  }
+  return turned + ")";
+}
+
+/** What the header says besides the grid. A space that was turned into LPS is none of it. */
 void
-CopyMetadata(const NrrdFields & fields, ImageDescription & description)
+CopyMetadata(const std::string & path, const NrrdFields & fields, ImageDescription & description)
 {
   description.Metadata = fields.KeyValues;
   const std::string space = ToLower(fields.Find("space").value_or("lps"));
-  const bool        isTurned = GetSigns(space, 3) != std::vector<double>(3, 1.0);
+  const auto        signs = GetSigns(space, 3);
+  const bool        isTurned = signs != std::vector<double>(3, 1.0);
   const bool        isLps = space == "lps" || space == "left-posterior-superior";
   for (const char * const name : { "content", "sample units", "space units", "units", "measurement frame", "space" })
   {
-    const auto value = fields.Find(NormaliseNrrdName(name));
-    const bool isOfSpace = std::string(name) == "measurement frame" || std::string(name) == "space";
-    if (value && !(isOfSpace && isTurned) && !(std::string(name) == "space" && isLps))
+    std::string value = fields.Find(NormaliseNrrdName(name)).value_or("");
+    if (isTurned && std::string(name) == "measurement frame")
     {
-      description.Metadata[std::string("NRRD_") + name] = *value;
+      value = TurnMeasurementFrame(path, value, signs);
+    }
+    if (!value.empty() && !(std::string(name) == "space" && (isTurned || isLps)))
+    {
+      description.Metadata[std::string("NRRD_") + name] = value;
     }
   }
 }
@@ -174,7 +199,7 @@ ReadNrrdHeader(const std::string & path)
   DescribeNumbers(path, fields, layout);
   NrrdAxes(path, fields).Describe(description);
   CheckDescription(path, description);
-  CopyMetadata(fields, description);
+  CopyMetadata(path, fields, description);
   LocateNumbers(path, fields, layout);
   if (layout.Encoding == PlainEncoding::Compressed && layout.Sections.size() > 1)
   {

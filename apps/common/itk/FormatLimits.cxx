@@ -11,15 +11,16 @@ Fail(const std::string & path, const std::string & reason)
   throw std::runtime_error("cannot write " + path + ": " + reason);
 }
 
-/** The largest size along an axis that a format's header can hold; 0: no limit that matters. */
+/** The largest size along an axis that a format's header can hold, or that ITK writes and reads; 0: no limit that
+ * matters. */
 std::uint64_t
 GetLargestSize(const std::string & format)
 {
-  return format == "NiftiImageIO"                             ? 32767
-         : format == "GiplImageIO" || format == "JPEGImageIO" ? 65535
-         : format == "PNGImageIO"                             ? 1000000
-         : format == "MRCImageIO" || format == "BMPImageIO"   ? 2147483647
-                                                              : 0;
+  return format == "NiftiImageIO"                                                       ? 32767
+         : format == "GiplImageIO" || format == "JPEGImageIO" || format == "MRCImageIO" ? 65535
+         : format == "PNGImageIO"                                                       ? 1000000
+         : format == "BMPImageIO"                                                       ? 2147483647
+                                                                                        : 0;
 }
 
 void

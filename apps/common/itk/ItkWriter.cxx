@@ -228,7 +228,9 @@ ItkWriter::Try()
       throw NotHeld();
     }
     losses = FindLosses(small, written);
-    m_IsLossless = HasRows(m_File.string(), small, voxels.data());
+    // JPEG may keep the few of a small image.
+    const bool isJpeg = std::string(this->MakeImageIO(small)->GetNameOfClass()) == "JPEGImageIO";
+    m_IsLossless = !isJpeg && HasRows(m_File.string(), small, voxels.data());
   }
   catch (const std::exception & error)
   {

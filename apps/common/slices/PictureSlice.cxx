@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "itk/Bitmap.h"
 #include "itk/JpegIntegrity.h"
+#include "itk/JpegOrientation.h"
 #include "itk/LibraryReason.h"
 #include "itk/PictureColours.h"
 #include "slices/SliceFile.h"
@@ -61,6 +62,7 @@ public:
       this->Fail("its pixels are of a kind that is not supported");
     }
     m_Page.Kind = kinds[m_Page.NumberOfComponents - 1];
+    m_Page.Orientation = ReadJpegOrientation(path);
   }
 
   const TiffPage &

@@ -23,10 +23,6 @@ public:
     {
       this->Fail("it holds no TIFF, PNG, BMP or JPEG slices");
     }
-    if (options.Channel.value_or(0) != 0 || options.Frame.value_or(0) != 0)
-    {
-      this->Fail("a folder of slices has no channels and frames to choose from");
-    }
     const TiffStack stack = this->CheckSlices(warn);
     this->Describe(stack, options, warn);
   }

@@ -41,7 +41,7 @@ public:
     return m_Description;
   }
 
-  /** Puts the spacing and the origin that the user gave, a number for each axis or one for all, in place of the file's;
+  /** Puts the spacing, a number for each axis or one for all, and the origin that the user gave in place of the file's;
    * a warning says so.
    * \throw std::runtime_error if they are no grid's */
   void

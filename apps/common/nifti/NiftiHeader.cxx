@@ -368,6 +368,13 @@ NiftiHeader::GetPlacement(const ImageGrid & grid) const
   return getDistance(this->GetMatrix()) < getDistance(this->GetQuaternionMatrix()) ? "sform" : "qform";
 }
 
+bool
+IsNiftiHeader(const std::string & path)
+{
+  const NiftiHeader header(path);
+  return header.IsSingleFile() || header.IsOfPair() || header.IsOfVersion2();
+}
+
 NiftiHeader
 ReadNiftiHeader(const std::string & path)
 {

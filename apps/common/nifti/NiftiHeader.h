@@ -113,6 +113,10 @@ private:
   bool                         m_IsCompressed = false;
 };
 
+/** Whether a file, compressed or not, starts with a header of NIfTI of either version, or of Analyze. */
+bool
+IsNiftiHeader(const std::string & path);
+
 /** The header of an image, which may be named by the file of its voxels. */
 NiftiHeader
 ReadNiftiHeader(const std::string & path);

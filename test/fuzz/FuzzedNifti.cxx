@@ -204,6 +204,7 @@ CheckPlacement(const NiftiHeader & header, const ImageDescription & description)
   FuzzExpect(name == "sform" || name == "qform", "a placement that is none");
   FuzzExpect(placement.IsFinite() || placement.IsThere(), "a placement that is none is not finite");
   FuzzExpect(placement.FindFault().empty() || placement.IsThere(), "a placement that is none has a fault");
+  FuzzExpect(header.FindSpmParts().empty() || !placement.IsThere(), "a header of Analyze places its voxels");
   const std::size_t axes = grid.Size.size();
   FuzzExpect(axes < 3 || !(placement.LeavesAxes(axes) || placement.LiesBeside(axes)), "a volume has no place in space");
 }

@@ -161,6 +161,28 @@ class Nifti(ProgramTest):
                         self.refuse(name, f"{components} components", "intent_code", "1007")
                 os.remove(self.path(name))
 
+    def test_what_spm_writes_into_analyze(self):
+        def warnings(*numbers):
+            analyze = [("<f", 108, 0), ("<f", 112, 0), ("4s", 344, bytes(4))]
+            write_nifti(self.path("in.nii"), SIZE, VALUES, [*analyze, *numbers])
+            with open(self.path("in.nii"), "rb") as file:
+                content = file.read()
+            for name, part in (("in.hdr", content[:348]), ("in.img", content[352:])):
+                with open(self.path(name), "wb") as file:
+                    file.write(part)
+            result = self.run_program(self.path("in.hdr"), self.path("read.mha"))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return [line for line in result.stderr.splitlines() if "SPM" in line]
+
+        self.assertEqual(warnings(), [])
+        self.assertEqual(warnings(("<f", 112, 1), ("10s", 253, b"a program")), [])
+        for numbers, words in (([("<f", 112, 0.25)], "with a scale factor of 0.25 as"),
+                               ([("<3h", 253, 4, 3, 5)], "with an origin as"),
+                               ([("<f", 112, 2), ("<3h", 253, 4, 3, 5)], "with a scale factor of 2 and an origin as")):
+            found = warnings(*numbers)
+            self.assertEqual(len(found), 1, found)
+            self.assertIn(words, found[0])
+
 
 if __name__ == "__main__":
     unittest.main()

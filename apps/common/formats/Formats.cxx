@@ -74,6 +74,12 @@ OpenNifti(const std::string & path, const InputOptions & options, const WarningS
   const NiftiPair   files = IsNiftiPair(path) ? FindNiftiPair(path) : NiftiPair{ path, path };
   const NiftiHeader header(files.Header);
   WarnOfPlacement(path, header.GetPlacement(), reader->GetDescription().Grid, warn);
+  const std::string spm = header.FindSpmParts();
+  if (!spm.empty())
+  {
+    warn(path + " is an Analyze file with " + spm +
+         " as SPM writes them, left out here; SPM saves it as NIfTI with them");
+  }
   const auto rescaling = header.GetRescaling();
   if (rescaling && !(std::isfinite(rescaling->first) && std::isfinite(rescaling->second)))
   {

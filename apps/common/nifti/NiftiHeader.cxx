@@ -27,6 +27,7 @@ constexpr std::size_t TimeOffset = 136;
 constexpr std::size_t QuaternionCode = 252;
 constexpr std::size_t MatrixCode = 254;
 constexpr std::size_t Quaternion = 256; // and the offsets
+constexpr std::size_t SpmOrigin = 253;  // of Analyze alone, which has a text there otherwise
 constexpr std::size_t Rows = 280;
 constexpr std::size_t Magic = 344;
 
@@ -304,6 +305,25 @@ NiftiHeader::FindFault() const
            "precision; save them in another unit";
   }
   return {};
+}
+
+std::string
+NiftiHeader::FindSpmParts() const
+{
+  if (this->IsNifti() || !this->IsOfPair())
+  {
+    return {};
+  }
+  const float scale = std::abs(this->Get<float>(Slope)); // SPM puts it there, too
+  const bool  isScaled = scale > 1e-30f && scale < 1e30f && scale != 1.0f;
+  bool        hasOrigin = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) // the number of a voxel; a text would be larger numbers
+  {
+    const auto origin = this->Get<std::int16_t>(SpmOrigin + 2 * axis);
+    hasOrigin = hasOrigin && origin >= 1 && origin <= this->Get<std::int16_t>(Dimensions + 2 * (axis + 1));
+  }
+  const std::string factor = isScaled ? "a scale factor of " + FormatReal(this->Get<float>(Slope)) : std::string();
+  return factor + (isScaled && hasOrigin ? " and " : "") + (hasOrigin ? "an origin" : "");
 }
 
 NiftiPlacement

@@ -82,6 +82,11 @@ public:
   std::string
   FindFault() const;
 
+  /** What SPM writes into fields that Analyze itself does not use, in words: a scale factor and an origin. Empty if
+   * nothing, or if it is NIfTI. */
+  std::string
+  FindSpmParts() const;
+
   /** Where it places the voxels. Analyze does not. */
   NiftiPlacement
   GetPlacement() const;

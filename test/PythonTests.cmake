@@ -60,6 +60,7 @@ add_python_test(programs/subdivide_volume_labels_test.py PROGRAMS SubdivideVolum
 add_python_test(programs/subdivide_volume_levels_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_longer_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_neighbours_test.py PROGRAMS SubdivideVolume)
+add_python_test(programs/subdivide_volume_nifti_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_piece_faults_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_pieces_test.py PROGRAMS SubdivideVolume)
 add_python_test(programs/subdivide_volume_processes_test.py PROGRAMS SubdivideVolume)

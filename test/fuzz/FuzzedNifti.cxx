@@ -23,6 +23,36 @@ IsOfKind(const FuzzedNiftiHeader & header)
   return header.IsSingle() || GetBits(header.Text, header.IsBig, 0, 4) == FuzzedNiftiHeader::Size;
 }
 
+/** Whether numbers that are rescaled to single precision neither vanish there nor become infinite. */
+bool
+FitsSinglePrecision(const FuzzedNiftiHeader & header)
+{
+  const auto                    rescaling = header.GetRescaling();
+  const FuzzedNiftiType * const type = header.FindType();
+  if (!rescaling || type == nullptr || type->Component == ElementType::Double || !std::isfinite(rescaling->first) ||
+      !std::isfinite(rescaling->second) || std::isnan(header.Real(112)) || std::isnan(header.Real(116)))
+  {
+    return true;
+  }
+  const bool isSigned = type->Component == ElementType::Int8 || type->Component == ElementType::Int16 ||
+                        type->Component == ElementType::Int32 || type->Component == ElementType::Int64;
+  const int    bits = static_cast<int>(8 * itk::Subdivision::SizeOf(type->Component)) - (isSigned ? 1 : 0);
+  const double largest = type->Component == ElementType::Float ? 1.0 : std::ldexp(1.0, bits) - 1.0;
+  const double slope = std::abs(rescaling->first);
+  const double mostOfSingle = std::ldexp(2.0 - std::ldexp(1.0, -23), 127);
+  return slope >= std::ldexp(1.0, -126) && largest * slope + std::abs(rescaling->second) <= mostOfSingle;
+}
+
+/** Whether the components are as many as its kind of voxels has. */
+bool
+HasRightComponents(const FuzzedNiftiHeader & header)
+{
+  const unsigned components = header.Short(40) < 5 ? 1 : header.Short(50);
+  const auto     root = static_cast<unsigned>(std::sqrt(2.0 * components));
+  const bool     isTriangle = components < 32768 && root * (root + 1) == 2 * components;
+  return !header.IsNifti() || header.Short(68) != 1005 || isTriangle;
+}
+
 /** Whether the files are what their header says. */
 bool
 IsRight(const FuzzedNiftiFiles & files, const FuzzedNiftiHeader & header)
@@ -35,7 +65,8 @@ IsRight(const FuzzedNiftiFiles & files, const FuzzedNiftiHeader & header)
   const FuzzedNiftiType * const type = header.FindType();
   const bool                    hasBitsOfType =
     type == nullptr || header.Short(72) == 8 * type->Components * itk::Subdivision::SizeOf(type->Component);
-  return hasRightMagic && hasBitsOfType && !startsInHeader && !hasOddIntercept && bytes > 0.0 &&
+  return hasRightMagic && hasBitsOfType && !startsInHeader && !hasOddIntercept && HasRightComponents(header) &&
+         FitsSinglePrecision(header) && bytes > 0.0 &&
          static_cast<double>(files.Voxels.size()) == header.GetOffset() + bytes;
 }
 
@@ -167,10 +198,15 @@ CheckPlacement(const NiftiHeader & header, const ImageDescription & description)
 {
   ImageGrid grid = description.Grid;
   header.CompleteUnits(grid);
-  FuzzExpect(!header.IsPlacedTwice() || header.IsPlaced(), "a header that places its voxels twice and not at all");
-  const std::string placement = header.GetPlacement(grid);
-  FuzzExpect(placement == "sform" || placement == "qform", "a placement that is none");
-  FuzzExpect(header.IsPlacedFinitely() || header.IsPlaced(), "a placement that is none is not finite");
+  const NiftiPlacement placement = header.GetPlacement();
+  FuzzExpect(!placement.IsTwice() || placement.IsThere(), "a header that places its voxels twice and not at all");
+  const std::string name = placement.GetName(grid);
+  FuzzExpect(name == "sform" || name == "qform", "a placement that is none");
+  FuzzExpect(placement.IsFinite() || placement.IsThere(), "a placement that is none is not finite");
+  FuzzExpect(placement.FindFault().empty() || placement.IsThere(), "a placement that is none has a fault");
+  FuzzExpect(header.FindSpmParts().empty() || !placement.IsThere(), "a header of Analyze places its voxels");
+  const std::size_t axes = grid.Size.size();
+  FuzzExpect(axes < 3 || !(placement.LeavesAxes(axes) || placement.LiesBeside(axes)), "a volume has no place in space");
 }
 } // namespace
 

@@ -72,13 +72,11 @@ FuzzedNiftiHeader::GetVoxelBytes() const
 std::optional<std::pair<double, double>>
 FuzzedNiftiHeader::GetRescaling() const
 {
-  const double least = std::ldexp(1.0, -52);
   const double stored = this->Real(112);
-  const double slope = std::isnan(stored) || std::abs(stored) < least ? 1.0 : stored;
+  const double slope = std::isnan(stored) || stored == 0.0 ? 1.0 : stored;
   const double intercept = std::isnan(this->Real(116)) ? 0.0 : this->Real(116);
-  return this->IsNifti() && (slope != 1.0 || std::abs(intercept) > least)
-           ? std::make_optional(std::make_pair(slope, intercept))
-           : std::nullopt;
+  return this->IsNifti() && (slope != 1.0 || intercept != 0.0) ? std::make_optional(std::make_pair(slope, intercept))
+                                                               : std::nullopt;
 }
 
 /** A number as it stands in a file. */

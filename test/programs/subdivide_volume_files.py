@@ -46,8 +46,9 @@ def write_nrrd(path, size, pixel, values, encoding="raw", more=()):
         file.write("\n".join(lines).encode() + (gzip.compress(data) if encoding == "gzip" else data))
 
 
-def write_nifti(path, size, values):
-    """16-bit voxels, one file; the name's ending says whether it is compressed."""
+def write_nifti(path, size, values, numbers=()):
+    """16-bit voxels, one file; the name's ending says whether it is compressed. Numbers that are put into the header: a
+    format of struct, a place and values."""
     header = bytearray(352)
     struct.pack_into("<i", header, 0, 348)
     struct.pack_into("<8h", header, 40, len(size), *size, *[1] * (7 - len(size)))
@@ -56,6 +57,8 @@ def write_nifti(path, size, values):
     struct.pack_into("<f", header, 108, 352)
     struct.pack_into("<f", header, 112, 1)
     header[344:348] = b"n+1\0"
+    for kind, place, *words in numbers:
+        struct.pack_into(kind, header, place, *words)
     data = bytes(header) + array.array("h", values).tobytes()
     with open(path, "wb") as file:
         file.write(gzip.compress(data) if path.endswith(".gz") else data)

@@ -22,11 +22,7 @@ class Headers(ProgramTest):
 
     def patch_nifti(self, *numbers, name="in.nii"):
         """A NIfTI file with numbers put into its header: a format of struct, a place and a value."""
-        write_nifti(self.path(name), SIZE, VALUES)
-        with open(self.path(name), "r+b") as file:
-            for kind, place, *values in numbers:
-                file.seek(place)
-                file.write(struct.pack(kind, *values))
+        write_nifti(self.path(name), SIZE, VALUES, numbers)
 
     def read(self, name, *words):
         """Reads a file, with a warning that has the words, if there are any."""

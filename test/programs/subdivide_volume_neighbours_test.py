@@ -69,6 +69,31 @@ class Neighbours(ProgramTest):
                 self.assertEqual(file.read(), "another's")
             self.assertFalse(os.path.exists(self.path(output)))
 
+    def test_a_pair_of_another_program(self):
+        write_meta(self.path("truth.mha"), SIZE, "h", noise(COUNT))
+        for gz in ("", ".gz"):
+            names = ["pair.hdr" + gz, "pair.img" + gz]
+            for output in names:
+                if output == "pair.hdr.gz":
+                    continue  # no ending of an output
+                for name in names:
+                    with open(self.path(name), "w", encoding="ascii") as file:
+                        file.write("ENVI\nsamples = 7\n" + name)
+                with self.subTest(output=output):
+                    result = self.run_program(self.path("truth.mha"), self.path(output))
+                    self.assert_fails(result, 1, *names, "NIfTI")
+                    for name in names:
+                        with open(self.path(name), encoding="ascii") as file:
+                            self.assertEqual(file.read(), "ENVI\nsamples = 7\n" + name)
+            for name in names:
+                os.remove(self.path(name))
+            self.subdivide("truth.mha", names[1])  # and NIfTI's own pair gives way to the next one
+            self.subdivide("truth.mha", "once.mha", "--axes", "x")
+            self.subdivide("truth.mha", names[1], "--axes", "x")
+            self.assertEqual(self.voxels(names[1]), self.voxels("once.mha"))
+            for name in names:
+                os.remove(self.path(name))
+
     def test_endings_of_nifti_in_both_cases(self):
         write_meta(self.path("truth.mha"), SIZE, "h", noise(COUNT))
         self.assert_fails(self.run_program(self.path("truth.mha"), self.path("out.Nii.Gz")), 1, "capitals")

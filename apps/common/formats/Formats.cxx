@@ -44,6 +44,30 @@ OpenAnyNrrd(const std::string & path, const InputOptions & options, const Warnin
   }
 }
 
+void
+WarnOfPlacement(const std::string &    path,
+                const NiftiPlacement & placement,
+                const ImageGrid &      grid,
+                const WarningSink &    warn)
+{
+  const std::size_t axes = grid.Size.size();
+  const std::string places = path + " is placed in space, where an image of " + std::to_string(axes) +
+                             (axes == 1 ? " axis" : " axes") + " cannot be: its ";
+  if (placement.LeavesAxes(axes))
+  {
+    warn(places + "origin and directions are left out");
+    return;
+  }
+  if (placement.LiesBeside(axes))
+  {
+    warn(places + "position across " + (axes == 1 ? "that" : "those") + " is left out");
+  }
+  if (placement.IsTwice())
+  {
+    warn(path + " has two placements that differ, a qform and a sform: the " + placement.GetName(grid) + " is taken");
+  }
+}
+
 std::unique_ptr<VolumeReader>
 OpenJpeg(const std::string & path, const InputOptions & options, const WarningSink & warn)
 {
@@ -63,10 +87,12 @@ OpenNifti(const std::string & path, const InputOptions & options, const WarningS
   auto              reader = OpenByItk(path, options, warn);
   const NiftiPair   files = IsNiftiPair(path) ? FindNiftiPair(path) : NiftiPair{ path, path };
   const NiftiHeader header(files.Header);
-  if (header.IsPlacedTwice())
+  WarnOfPlacement(path, header.GetPlacement(), reader->GetDescription().Grid, warn);
+  const std::string spm = header.FindSpmParts();
+  if (!spm.empty())
   {
-    warn(path + " has two placements that differ, a qform and a sform: the " +
-         header.GetPlacement(reader->GetDescription().Grid) + " is taken");
+    warn(path + " is an Analyze file with " + spm +
+         " as SPM writes them, left out here; SPM saves it as NIfTI with them");
   }
   const auto rescaling = header.GetRescaling();
   if (rescaling && !(std::isfinite(rescaling->first) && std::isfinite(rescaling->second)))
@@ -80,6 +106,12 @@ OpenNifti(const std::string & path, const InputOptions & options, const WarningS
     FailToRead(path,
                "its voxels have several components and a slope, which are read right where they are vectors in an "
                "uncompressed file; uncompress it, or apply the slope and set scl_slope to 1");
+  }
+  if (plain == nullptr && !header.IsRescaledByItk())
+  {
+    FailToRead(path,
+               "its slope or intercept (scl_slope, scl_inter) is below 2.2e-16, which is read right in an uncompressed "
+               "file alone; uncompress it");
   }
   return plain != nullptr ? std::move(plain) : std::move(reader);
 }

@@ -57,6 +57,23 @@ GetMetadata(const itk::MetaDataDictionary & dictionary)
   return metadata;
 }
 
+/** Takes the placement from an image of fewer than three axes whose grid cannot have it. */
+void
+LeaveOutPlacement(const std::string & path, const itk::ImageIOBase & imageIO, ImageGrid & grid)
+{
+  const std::size_t axes = grid.Size.size();
+  if (std::string(imageIO.GetNameOfClass()) != "NiftiImageIO" || !ReadNiftiHeader(path).GetPlacement().LeavesAxes(axes))
+  {
+    return;
+  }
+  for (std::size_t axis = 0; axis < axes; ++axis)
+  {
+    grid.Origin[axis] = 0.0;
+    grid.Directions[axis].assign(axes, 0.0);
+    grid.Directions[axis][axis] = 1.0;
+  }
+}
+
 /** Before version 5.4, ITK's reader of NIfTI puts the spacing in space alone into millimetres. */
 void
 CompleteUnits(const std::string & path, const itk::ImageIOBase & imageIO, ImageGrid & grid)
@@ -86,6 +103,7 @@ DescribeByItk(const std::string & path, const itk::ImageIOBase & imageIO)
   description.Kind = GetKind(imageIO);
   description.Format = GetFormatName(imageIO);
   description.Metadata = GetMetadata(imageIO.GetMetaDataDictionary());
+  LeaveOutPlacement(path, imageIO, description.Grid);
   CheckDescription(path, description);
   CompleteUnits(path, imageIO, description.Grid);
   return description;

@@ -116,6 +116,34 @@ IsHdf5(const std::string & path)
   return InputFile(path).ReadTextAt(0, sign.size()) == sign;
 }
 
+void
+CheckNiftiPlacement(const std::string & path)
+{
+  const NiftiPlacement placement = ReadNiftiHeader(path).GetPlacement();
+  const std::string    fault = placement.FindFault();
+  if (!placement.IsFinite())
+  {
+    FailToRead(path,
+               "its placement (qform or sform) has numbers that are not finite; --raw reads it without its header");
+  }
+  if (!fault.empty())
+  {
+    FailToRead(path, fault);
+  }
+}
+
+/** Why ITK did not read a header. */
+std::string
+GetHeaderFault(const itk::ExceptionObject & error, const std::string & path, const bool isNifti)
+{
+  const std::string reason = GetReason(error, path);
+  if (isNifti && reason.find("orthonormal") != std::string::npos)
+  {
+    return ReadNiftiHeader(path).GetPlacement().ExplainRefusal();
+  }
+  return IsHdf5(path) ? "it is damaged (" + reason + ')' : reason;
+}
+
 bool
 IsWhole(const std::vector<std::uint64_t> & size, const Box & box)
 {
@@ -180,10 +208,9 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   {
     CheckMrcByteOrder(path);
   }
-  if (library == "NiftiImageIO" && !ReadNiftiHeader(path).IsPlacedFinitely())
+  if (library == "NiftiImageIO")
   {
-    FailToRead(path,
-               "its placement (qform or sform) has numbers that are not finite; --raw reads it without its header");
+    CheckNiftiPlacement(path);
   }
   this->ReadHeader();
   const std::string colourFault = FindColourFault(*m_ImageIO);
@@ -243,7 +270,7 @@ ItkReader::ReadHeader()
   }
   catch (const itk::ExceptionObject & error)
   {
-    FailToRead(m_Path, IsHdf5(m_Path) ? "it is damaged (" + GetReason(error, m_Path) + ')' : GetReason(error, m_Path));
+    FailToRead(m_Path, GetHeaderFault(error, m_Path, m_ImageIO->GetNameOfClass() == std::string("NiftiImageIO")));
   }
 }
 

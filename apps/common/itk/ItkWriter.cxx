@@ -296,8 +296,13 @@ ItkWriter::CheckPartners() const
                                "; move that away");
     }
   }
-  if (m_IsGzipped || fs::exists(output))
+  if (m_IsGzipped)
   {
+    return;
+  }
+  if (fs::exists(output))
+  {
+    CheckReplacedPair(output.string());
     return;
   }
   for (const auto & names : this->GetFinalNames())

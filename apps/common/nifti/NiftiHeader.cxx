@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include <zlib.h>
 
@@ -25,8 +26,8 @@ constexpr std::size_t Units = 123;
 constexpr std::size_t TimeOffset = 136;
 constexpr std::size_t QuaternionCode = 252;
 constexpr std::size_t MatrixCode = 254;
-constexpr std::size_t Quaternion = 256;
-constexpr std::size_t Offsets = 268;
+constexpr std::size_t Quaternion = 256; // and the offsets
+constexpr std::size_t SpmOrigin = 253;  // of Analyze alone, which has a text there otherwise
 constexpr std::size_t Rows = 280;
 constexpr std::size_t Magic = 344;
 
@@ -50,6 +51,33 @@ GetSeconds(unsigned int units)
 {
   const unsigned int unit = units & 56;
   return unit == 16 ? 1e-3 : unit == 24 ? 1e-6 : 1.0;
+}
+
+/** Whether so many components are those of a symmetric matrix without those that are there twice. */
+bool
+AreOfSymmetricMatrix(int components)
+{
+  int rest = components;
+  for (int row = 1; rest > 0; ++row)
+  {
+    rest -= row;
+  }
+  return rest == 0;
+}
+
+/** Whether single precision holds what numbers become by a slope and an intercept, if it is to: doubles stay such. */
+bool
+FitsSinglePrecision(const std::pair<double, double> & rescaling, itk::Subdivision::ElementType type)
+{
+  const double slope = std::abs(rescaling.first);
+  const double largest = itk::Subdivision::WithElementType(type, [](auto tag) {
+    using Type = typename decltype(tag)::Type;
+    return std::is_integral_v<Type> ? static_cast<double>(std::numeric_limits<Type>::max()) : 1.0;
+  });
+  const bool   isTooSmall = slope < std::numeric_limits<float>::min();
+  const bool   isTooLarge = largest * slope + std::abs(rescaling.second) > std::numeric_limits<float>::max();
+  const bool   isFinite = std::isfinite(slope) && std::isfinite(rescaling.second);
+  return type == itk::Subdivision::ElementType::Double || !isFinite || !(isTooSmall || isTooLarge);
 }
 } // namespace
 
@@ -175,13 +203,22 @@ NiftiHeader::HoldsDisplacements() const
 std::optional<std::pair<double, double>>
 NiftiHeader::GetRescaling() const
 {
-  constexpr double least = std::numeric_limits<double>::epsilon();
-  const double     stored = this->Get<float>(Slope);
-  const double     slope = std::abs(stored) < least ? 1.0 : stored;
-  const double     intercept = this->Get<float>(Intercept);
-  const bool       changes = std::abs(slope - 1.0) > least || std::abs(intercept) > least;
+  const double stored = this->Get<float>(Slope);
+  const double slope = stored == 0.0 ? 1.0 : stored;
+  const double intercept = this->Get<float>(Intercept);
+  // What is not a number is how some programs write that there is none.
+  const bool changes = slope < 1.0 || slope > 1.0 || intercept < 0.0 || intercept > 0.0;
   // Analyze has no slope there.
   return this->IsNifti() && changes ? std::make_optional(std::make_pair(slope, intercept)) : std::nullopt;
+}
+
+bool
+NiftiHeader::IsRescaledByItk() const
+{
+  constexpr double least = std::numeric_limits<double>::epsilon();
+  const auto       rescaling = this->GetRescaling();
+  return !rescaling || (std::abs(rescaling->first) > least &&
+                        (std::abs(rescaling->first - 1.0) > least || std::abs(rescaling->second) > least));
 }
 
 bool
@@ -224,7 +261,7 @@ NiftiHeader::CompleteUnits(ImageGrid & grid) const
   {
     const double start = this->Get<float>(TimeOffset);
     grid.Spacing[3] *= GetSeconds(units);
-    grid.Origin[3] = this->IsPlaced() && std::isfinite(start) ? start * GetSeconds(units) : 0.0;
+    grid.Origin[3] = this->GetPlacement().IsThere() && std::isfinite(start) ? start * GetSeconds(units) : 0.0;
   }
 }
 
@@ -255,117 +292,68 @@ NiftiHeader::FindFault() const
     return "its header has an intercept of " + FormatReal(intercept) +
            ", but a slope of 0, which programs take in different ways; set scl_slope to 1 or scl_inter to 0";
   }
+  const int components = this->Get<std::int16_t>(Dimensions) >= 5 ? this->Get<std::int16_t>(Dimensions + 10) : 1;
+  if (this->IsNifti() && this->Get<std::int16_t>(Intent) == 1005 && !AreOfSymmetricMatrix(components))
+  {
+    return "its header says that its voxels are symmetric matrices (intent_code 1005), but " +
+           std::to_string(components) + " components are none; set intent_code to 1007 if they are vectors";
+  }
+  const auto rescaling = this->GetRescaling();
+  if (rescaling && component && !FitsSinglePrecision(*rescaling, *component))
+  {
+    return "its slope and intercept (scl_slope, scl_inter) make numbers that are too small or too large for single "
+           "precision; save them in another unit";
+  }
   return {};
 }
 
-NiftiHeader::Matrix
-NiftiHeader::GetQuaternionMatrix() const
+std::string
+NiftiHeader::FindSpmParts() const
 {
-  const double b = this->Get<float>(Quaternion);
-  const double c = this->Get<float>(Quaternion + 4);
-  const double d = this->Get<float>(Quaternion + 8);
-  const double a = std::sqrt(std::max(0.0, 1.0 - b * b - c * c - d * d));
-  const Matrix turn = { { { a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c), 0 },
-                          { 2 * (b * c + a * d), a * a + c * c - b * b - d * d, 2 * (c * d - a * b), 0 },
-                          { 2 * (b * d - a * c), 2 * (c * d + a * b), a * a + d * d - b * b - c * c, 0 } } };
-  Matrix       matrix = turn;
-  for (std::size_t row = 0; row < 3; ++row)
+  if (this->IsNifti() || !this->IsOfPair())
   {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const double sign = axis == 2 && this->Get<float>(Spacings) < 0 ? -1.0 : 1.0;
-      matrix[row][axis] *= sign * this->Get<float>(Spacings + 4 * (axis + 1));
-    }
-    matrix[row][3] = this->Get<float>(Offsets + 4 * row);
+    return {};
   }
-  return matrix;
+  const float scale = std::abs(this->Get<float>(Slope)); // SPM puts it there, too
+  const bool  isScaled = scale > 1e-30f && scale < 1e30f && scale != 1.0f;
+  bool        hasOrigin = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) // the number of a voxel; a text would be larger numbers
+  {
+    const auto origin = this->Get<std::int16_t>(SpmOrigin + 2 * axis);
+    hasOrigin = hasOrigin && origin >= 1 && origin <= this->Get<std::int16_t>(Dimensions + 2 * (axis + 1));
+  }
+  const std::string factor = isScaled ? "a scale factor of " + FormatReal(this->Get<float>(Slope)) : std::string();
+  return factor + (isScaled && hasOrigin ? " and " : "") + (hasOrigin ? "an origin" : "");
 }
 
-NiftiHeader::Matrix
-NiftiHeader::GetMatrix() const
+NiftiPlacement
+NiftiHeader::GetPlacement() const
 {
-  Matrix matrix;
+  NiftiPlacement::Numbers numbers;
+  numbers.HasQuaternion = this->IsNifti() && this->Get<std::int16_t>(QuaternionCode) > 0;
+  numbers.HasMatrix = this->IsNifti() && this->Get<std::int16_t>(MatrixCode) > 0;
+  for (std::size_t i = 0; i < numbers.Quaternion.size(); ++i)
+  {
+    numbers.Quaternion[i] = this->Get<float>(Quaternion + 4 * i);
+  }
   for (std::size_t i = 0; i < 12; ++i)
   {
-    matrix[i / 4][i % 4] = this->Get<float>(Rows + 4 * i);
+    numbers.Rows[i / 4][i % 4] = this->Get<float>(Rows + 4 * i);
   }
-  return matrix;
-}
-
-bool
-NiftiHeader::IsPlacedFinitely() const
-{
-  const auto areFinite = [this](std::size_t place, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      if (!std::isfinite(this->Get<float>(place + 4 * i)))
-      {
-        return false;
-      }
-    }
-    return true;
-  };
-  constexpr std::size_t quaternionNumbers = 6; // with the offsets after it
-  constexpr std::size_t matrixNumbers = 12;
-  return !this->IsPlaced() ||
-         ((this->Get<std::int16_t>(QuaternionCode) <= 0 || areFinite(Quaternion, quaternionNumbers)) &&
-          (this->Get<std::int16_t>(MatrixCode) <= 0 || areFinite(Rows, matrixNumbers)));
-}
-
-bool
-NiftiHeader::IsPlaced() const
-{
-  return this->IsNifti() && (this->Get<std::int16_t>(QuaternionCode) > 0 || this->Get<std::int16_t>(MatrixCode) > 0);
-}
-
-bool
-NiftiHeader::IsPlacedTwice() const
-{
-  if (!this->IsNifti() || this->Get<std::int16_t>(QuaternionCode) <= 0 || this->Get<std::int16_t>(MatrixCode) <= 0)
-  {
-    return false;
-  }
-  const Matrix a = this->GetQuaternionMatrix();
-  const Matrix b = this->GetMatrix();
-  double       smallest = 1e30;
+  numbers.Sign = this->Get<float>(Spacings) < 0 ? -1.0 : 1.0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    smallest = std::min<double>(smallest, std::abs(this->Get<float>(Spacings + 4 * (axis + 1))));
+    numbers.Spacing[axis] = this->Get<float>(Spacings + 4 * (axis + 1));
+    numbers.Size[axis] = this->Get<std::uint16_t>(Dimensions + 2 * (axis + 1));
   }
-  // Both are in single precision, and rounded on the way: a tenth of a voxel is no rounding.
-  double largest = 0.0;
-  for (std::size_t row = 0; row < 3; ++row)
-  {
-    double change = std::abs(a[row][3] - b[row][3]);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const double count = this->Get<std::uint16_t>(Dimensions + 2 * (axis + 1));
-      change = std::max(change, std::abs(a[row][axis] - b[row][axis]) * count);
-    }
-    largest = std::max(largest, change);
-  }
-  return largest > 0.1 * smallest;
+  return NiftiPlacement(numbers);
 }
 
-const char *
-NiftiHeader::GetPlacement(const ImageGrid & grid) const
+bool
+IsNiftiHeader(const std::string & path)
 {
-  // The grid is in millimetres, in a space whose first two axes point the other way.
-  const double millimetres = grid.Spacing[0] / std::abs(this->Get<float>(Spacings + 4));
-  const auto   getDistance = [&](const Matrix & matrix) {
-    double distance = 0.0;
-    for (std::size_t row = 0; row < 3 && row < grid.Origin.size(); ++row)
-    {
-      const double sign = row < 2 ? -1.0 : 1.0;
-      distance += std::abs(sign * millimetres * matrix[row][3] - grid.Origin[row]);
-      for (std::size_t axis = 0; axis < 3 && axis < grid.Size.size(); ++axis)
-      {
-        distance += std::abs(sign * millimetres * matrix[row][axis] - grid.Spacing[axis] * grid.Directions[axis][row]);
-      }
-    }
-    return distance;
-  };
-  return getDistance(this->GetMatrix()) < getDistance(this->GetQuaternionMatrix()) ? "sform" : "qform";
+  const NiftiHeader header(path);
+  return header.IsSingleFile() || header.IsOfPair() || header.IsOfVersion2();
 }
 
 NiftiHeader

@@ -2,6 +2,7 @@
 #ifndef NiftiHeader_h
 #define NiftiHeader_h
 
+#include "nifti/NiftiPlacement.h"
 #include "volumes/ImageDescription.h"
 
 #include <array>
@@ -55,6 +56,10 @@ public:
   std::optional<std::pair<double, double>>
   GetRescaling() const;
 
+  /** Whether ITK rescales by them: it takes what is below 2.2e-16 for none. */
+  bool
+  IsRescaledByItk() const;
+
   /** Whether the place of the voxels is counted from the start of their file. */
   bool
   HasDataOffset() const;
@@ -77,34 +82,21 @@ public:
   std::string
   FindFault() const;
 
-  /** Whether the placements that it has are of finite numbers: ITK ends the program over others. */
-  bool
-  IsPlacedFinitely() const;
+  /** What SPM writes into fields that Analyze itself does not use, in words: a scale factor and an origin. Empty if
+   * nothing, or if it is NIfTI. */
+  std::string
+  FindSpmParts() const;
 
-  /** Whether it places the voxels at all. */
-  bool
-  IsPlaced() const;
-
-  /** Whether it places the voxels twice, by a quaternion (qform) and by a matrix (sform), at different places. */
-  bool
-  IsPlacedTwice() const;
-
-  /** Which of the two placements, qform or sform, a grid has. */
-  const char *
-  GetPlacement(const ImageGrid & grid) const;
+  /** Where it places the voxels. Analyze does not. */
+  NiftiPlacement
+  GetPlacement() const;
 
 private:
-  using Matrix = std::array<std::array<double, 4>, 3>;
-
   template <typename T>
   T
   Get(std::size_t offset) const;
   bool
   IsNifti() const;
-  Matrix
-  GetQuaternionMatrix() const;
-  Matrix
-  GetMatrix() const;
 
   static constexpr std::size_t Size = 348;
   std::array<char, Size>       m_Bytes{};
@@ -112,6 +104,10 @@ private:
   bool                         m_IsSwapped = false;
   bool                         m_IsCompressed = false;
 };
+
+/** Whether a file, compressed or not, starts with a header of NIfTI of either version, or of Analyze. */
+bool
+IsNiftiHeader(const std::string & path);
 
 /** The header of an image, which may be named by the file of its voxels. */
 NiftiHeader

@@ -49,10 +49,17 @@ MakeFinite(T value)
 /** What a stored number means; ITK rounds integers to single precision before and after they are rescaled. */
 template <typename TMeant, typename TStored>
 TMeant
-Rescale(TStored value, const Rescaling & rescaling)
+Rescale(TStored value, const std::pair<double, double> & rescaling)
 {
   const auto rounded = static_cast<TMeant>(MakeFinite(value));
-  return rescaling ? static_cast<TMeant>(static_cast<double>(rounded) * rescaling->first + rescaling->second) : rounded;
+  return static_cast<TMeant>(static_cast<double>(rounded) * rescaling.first + rescaling.second);
+}
+
+/** Integers that are rescaled are single precision numbers. */
+ElementType
+GetMeantType(ElementType stored, const Rescaling & rescaling)
+{
+  return rescaling && itk::Subdivision::IsInteger(stored) ? ElementType::Float : stored;
 }
 
 class NiftiReader : public VolumeReader
@@ -66,6 +73,7 @@ public:
     , m_Rescaling(rescaling)
   {
     m_Description = description;
+    m_Description.Component = GetMeantType(layout.Description.Component, rescaling);
   }
 
   std::vector<std::string>
@@ -133,7 +141,7 @@ NiftiReader::Read(const Box & box, void * voxels)
       const auto * const from = static_cast<const Stored *>(stored);
       for (std::uint64_t i = 0; m_Rescaling && i < count; ++i)
       {
-        static_cast<Meant *>(voxels)[i * volumes + volume] = Rescale<Meant>(from[i], m_Rescaling);
+        static_cast<Meant *>(voxels)[i * volumes + volume] = Rescale<Meant>(from[i], *m_Rescaling);
       }
       for (std::uint64_t i = 0; !m_Rescaling && i < count; ++i)
       {
@@ -158,11 +166,10 @@ OpenPlainNifti(const NiftiHeader & header, const NiftiPair & files, const ImageD
   {
     return nullptr;
   }
-  const bool isReal = *stored == ElementType::Float || *stored == ElementType::Double;
-  const auto meant = rescaling && !isReal ? ElementType::Float : *stored;
   const auto layout = MakeLayout(header, files.Voxels, description);
   const auto section = layout.Sections.front();
-  if (meant != description.Component || InputFile(files.Voxels).GetSize() < section.Offset + section.Size)
+  if ((description.Component != *stored && description.Component != GetMeantType(*stored, rescaling)) ||
+      InputFile(files.Voxels).GetSize() < section.Offset + section.Size)
   {
     return nullptr;
   }

@@ -13,13 +13,6 @@ namespace
 {
 constexpr std::uint64_t TensorNumbers = 9; // in the file, of which six differ
 
-/** What a header says of the first voxels that follow it. */
-struct VtkHeader
-{
-  std::uint64_t Size = 0;   // where the voxels start
-  std::uint64_t Points = 0; // 0: not said
-};
-
 /** Lines one by one, without the empty ones. */
 class Lines
 {
@@ -59,12 +52,25 @@ Has(const std::string & line, const char * word)
   return line.find(word) != std::string::npos;
 }
 
-VtkHeader
-ReadHeader(const InputFile & file)
+void
+CheckPoints(const std::string & path, const std::string & number, const std::uint64_t voxels)
+{
+  const std::uint64_t points = ParseSizes(path, "POINT_DATA", number, 1).front();
+  if (points != voxels)
+  {
+    FailToRead(path,
+               "its header says " + std::to_string(points) + " points (POINT_DATA), but its dimensions are those of " +
+                 std::to_string(voxels));
+  }
+}
+
+/** Reads the header, and checks that it says as many points as its dimensions do.
+ * \return where the first voxels start */
+std::uint64_t
+FindVoxels(const InputFile & file, const ImageDescription & description)
 {
   constexpr int linesBefore = 4; // version, title, encoding, kind of the dataset
   Lines         lines(file);
-  VtkHeader     header;
   for (int i = 0; i < linesBefore; ++i)
   {
     lines.GetNext();
@@ -79,15 +85,13 @@ ReadHeader(const InputFile & file)
     }
     if (Has(line, "point_data") && words.size() > 1)
     {
-      header.Points = ParseSizes(file.GetPath(), "POINT_DATA", words[1], 1).front();
+      CheckPoints(file.GetPath(), words[1], description.GetNumberOfVoxels());
     }
     if (Has(line, "vector") || Has(line, "scalars") || Has(line, "tensors"))
     {
       const std::size_t place = lines.Place;
       const bool hasTable = Has(line, "scalars") && !Has(line, "color_scalars") && Has(lines.GetNext(), "lookup_table");
-      lines.Place = hasTable ? lines.Place : place;
-      header.Size = lines.Place;
-      return header;
+      return hasTable ? lines.Place : place;
     }
   }
 }
@@ -108,21 +112,6 @@ CheckRest(const std::string & path, const std::string & word)
   }
 }
 
-/** Reads the header, and checks that it says as many points as its dimensions do. */
-VtkHeader
-ReadHeader(const InputFile & file, const ImageDescription & description)
-{
-  const VtkHeader     header = ReadHeader(file);
-  const std::uint64_t voxels = description.GetNumberOfVoxels();
-  if (header.Points != 0 && header.Points != voxels)
-  {
-    FailToRead(file.GetPath(),
-               "its header says " + std::to_string(header.Points) +
-                 " points (POINT_DATA), but its dimensions are those of " + std::to_string(voxels));
-  }
-  return header;
-}
-
 /** Numbers in the file. */
 std::uint64_t
 CountNumbers(const ImageDescription & description)
@@ -136,16 +125,16 @@ void
 CheckVtkVoxels(const std::string & path, const ImageDescription & description)
 {
   const InputFile     file(path);
-  const VtkHeader     header = ReadHeader(file, description);
+  const std::uint64_t start = FindVoxels(file, description);
   const std::uint64_t expected = CountNumbers(description) * itk::Subdivision::SizeOf(description.Component);
-  const std::uint64_t available = file.GetSize() - header.Size;
+  const std::uint64_t available = file.GetSize() - start;
   if (available < expected)
   {
     FailToRead(path,
                "it is truncated, with " + std::to_string(available) + " of " + std::to_string(expected) +
                  " bytes of data");
   }
-  const std::vector<std::string> words = SplitWords(file.ReadTextAt(header.Size + expected, 1 << 10));
+  const std::vector<std::string> words = SplitWords(file.ReadTextAt(start + expected, 1 << 10));
   CheckRest(path, words.empty() ? "" : words.front());
 }
 
@@ -155,14 +144,14 @@ ReadVtkText(const std::string & path, const ImageDescription & description)
   const std::uint64_t count = CountNumbers(description);
   const std::size_t   elementBytes = itk::Subdivision::SizeOf(description.Component);
   const InputFile     file(path);
-  const VtkHeader     header = ReadHeader(file, description);
-  if (file.GetSize() - header.Size < count)
+  const std::uint64_t start = FindVoxels(file, description);
+  if (file.GetSize() - start < count)
   {
     FailToRead(path, "it is truncated, with too few characters for " + std::to_string(count) + " numbers");
   }
   std::vector<char> bytes(static_cast<std::size_t>(count * elementBytes));
   TextNumbers       numbers(path, description.Component, count, bytes.data());
-  for (std::uint64_t place = header.Size; place < file.GetSize();)
+  for (std::uint64_t place = start; place < file.GetSize();)
   {
     const std::string part = file.ReadTextAt(place, 1 << 20);
     numbers.Add(part);

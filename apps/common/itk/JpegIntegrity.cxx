@@ -83,6 +83,7 @@ FindJpegFault(const std::string & path)
     return {};
   }
   std::rewind(file.get());
+  const std::uint64_t        bytes = std::filesystem::file_size(path);
   jpeg_decompress_struct     decoder = {};
   ErrorManager               errors = {};
   std::vector<unsigned char> row;
@@ -92,7 +93,7 @@ FindJpegFault(const std::string & path)
   if (setjmp(errors.End) == 0)
   {
     jpeg_create_decompress(&decoder);
-    Decode(decoder, file.get(), std::filesystem::file_size(path), row);
+    Decode(decoder, file.get(), bytes, row); // no temporary, either, which the jump would leave behind
   }
   jpeg_destroy_decompress(&decoder);
   return errors.Text;

@@ -21,7 +21,7 @@ if command -v ccache > /dev/null; then
 fi
 # The vector targets, which take clang minutes under sanitizers, run under them in test/array.
 CC=clang CXX=clang++ cmake -S test/fuzz -B build/fuzz -G Ninja -DNonOscillatorySubdivision_USE_HIGHWAY=OFF
-cmake --build build/fuzz --parallel "$(nproc)" --target "${fuzzers[@]}"
+cmake --build build/fuzz --parallel "$(nproc)" --target "${fuzzers[@]}" "${fuzzers[@]/%/Replay}"
 # Short runs allocate much: a report tells where memory was allocated when the file is run again by itself.
 export ASAN_OPTIONS=malloc_context_size=0:quarantine_size_mb=1:thread_local_quarantine_size_kb=64
 # Each processor runs a part; what one process finds, the others take up.
@@ -38,4 +38,6 @@ for fuzzer in "${fuzzers[@]}"; do
   (cd "build/fuzz/found-$fuzzer" && TMPDIR=/dev/shm "../$fuzzer" -jobs="$processes" -workers="$processes" \
     -runs=$(((runs + processes - 1) / processes)) -timeout=60 -reload=60 -entropic=0 -print_final_stats=1 "${options[@]}" \
     "../corpus-$fuzzer" "$kept")
+  # libFuzzer soon gives up looking for leaks; at the end of a replay, all are found.
+  "build/fuzz/${fuzzer}Replay" "build/fuzz/corpus-$fuzzer"
 done

@@ -298,7 +298,9 @@ ItkReader::ReadRegion(const Box & box, void * voxels)
   const WatchedTask task("cannot read " + m_Path);
   if (m_HasReadWhole && !m_ReadsParts)
   {
-    this->ReadHeader(); // GIPL's reader goes on where it stands, which is the end of the file
+    // GIPL's reader goes on where it stands, which is the end of the file, and NIfTI's does not free what it has read.
+    m_ImageIO = dynamic_cast<itk::ImageIOBase *>(m_ImageIO->CreateAnother().GetPointer());
+    this->ReadHeader();
   }
   m_HasReadWhole = true;
   itk::ImageIORegion region(static_cast<unsigned int>(box.size()));

@@ -208,6 +208,23 @@ class Streaming(ProgramTest):
         self.assertTrue(os.path.islink(self.path("link.mha")))
         self.assertEqual(Meta(self.path("target.mha")).size, [8, 8])
 
+    def test_an_image_of_two_files_is_written_where_a_link_leads_to(self):
+        write_meta(self.path("in.mha"), [4, 4, 4], "H", noise(64))
+        os.mkdir(self.path("other"))
+        for name, target, data in (("a.mhd", "real.mhd", "real.raw"), ("b.nhdr", "real.nhdr", "real.raw"),
+                                   ("c.hdr", "pair.hdr", "pair.img"), ("d.img", "twin.img", "twin.hdr")):
+            for options in ([], ["--piece", "1/1"]) if name[0] in "ab" else ([],):
+                os.symlink(f"other/{target}", self.path(name))
+                result = self.run_program(self.path("in.mha"), self.path(name), *options)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn(f"{name} is a link", result.stderr)
+                self.assertIn(os.path.realpath(self.path(f"other/{target}")), result.stderr)
+                self.assertTrue(os.path.islink(self.path(name)))
+                self.assertEqual(sorted(os.listdir(self.path("other"))), sorted([target, data]))
+                os.remove(self.path(name))
+                for file in (target, data):
+                    os.remove(self.path(f"other/{file}"))
+
     def test_a_memory_budget_is_kept(self):
         skip_under_sanitizers(self)
         side, budget = 240, 150 * 10 ** 6

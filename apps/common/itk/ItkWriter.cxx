@@ -259,6 +259,10 @@ ItkWriter::Begin(const ImageDescription & description)
   {
     Fail(m_Path, "NIfTI files' endings are in small letters or in capitals, not in both");
   }
+  if (IsNiftiPair(m_Path))
+  {
+    WarnOfLinkToPair(m_Path, m_Warn);
+  }
   m_Description = description;
   m_Folder = std::make_unique<TemporaryFolder>(m_Path, m_Warn);
   const fs::path output = m_Folder->GetFileName();

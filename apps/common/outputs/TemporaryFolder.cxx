@@ -46,6 +46,17 @@ ResolveOutput(fs::path output)
   return error ? fs::absolute(output) : folder / output.filename();
 }
 
+void
+WarnOfLinkToPair(const fs::path & output, const WarningSink & warn)
+{
+  std::error_code error;
+  if (fs::is_symlink(output, error))
+  {
+    warn(output.string() + " is a link: both files of the image are written where it leads to; read it as " +
+         ResolveOutput(output).string());
+  }
+}
+
 TemporaryFolder::TemporaryFolder(const fs::path & output, const WarningSink & warn)
   : m_Output(ResolveOutput(output))
 {

@@ -18,6 +18,11 @@
 std::filesystem::path
 ResolveOutput(std::filesystem::path output);
 
+/** Warns where an image of two files is to be written under the name of a link: both stand where that leads to, and may
+ * not be found by the link's name. */
+void
+WarnOfLinkToPair(const std::filesystem::path & output, const WarningSink & warn);
+
 /** A hidden folder beside the output in which the output is written under its own name. The formats that write several
  * files name one in the other; these names are right from the start. When all is written, the files are renamed into
  * place. Otherwise the folder is removed, also when the program is interrupted: a half-written file never bears the

@@ -16,7 +16,7 @@ CreatePieceWriter(const std::string & path, const OutputOptions & options, const
   std::error_code error;
   if (IsPlainFormat(path))
   {
-    return CreatePlainPieceWriter(path, options);
+    return CreatePlainPieceWriter(path, options, warn);
   }
   if (path.back() == '/' || fs::is_directory(path, error))
   {

@@ -62,7 +62,7 @@ std::unique_ptr<PieceWriter>
 CreatePieceWriter(const std::string & path, const OutputOptions & options, const WarningSink & warn);
 
 std::unique_ptr<PieceWriter>
-CreatePlainPieceWriter(const std::string & path, const OutputOptions & options);
+CreatePlainPieceWriter(const std::string & path, const OutputOptions & options, const WarningSink & warn);
 
 std::unique_ptr<PieceWriter>
 CreateSlicePieceWriter(const std::string & path, const OutputOptions & options, const WarningSink & warn);

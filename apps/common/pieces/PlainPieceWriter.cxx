@@ -15,10 +15,11 @@ namespace
 class PlainPieceWriter : public PieceWriter
 {
 public:
-  PlainPieceWriter(const std::string & path, const OutputOptions & options)
+  PlainPieceWriter(const std::string & path, const OutputOptions & options, WarningSink warn)
     : m_Path(path)
     , m_Output(ResolveOutput(path))
     , m_Options(options)
+    , m_Warn(std::move(warn))
   {}
 
   std::vector<fs::path>
@@ -63,6 +64,10 @@ public:
     m_Header = ComposePlainHeader(m_Output, description, m_Options);
     m_DataOffset = m_Header.IsDetached ? 0 : m_Header.Text.size();
     this->CheckDataFile();
+    if (m_Header.IsDetached)
+    {
+      WarnOfLinkToPair(m_Path, m_Warn);
+    }
   }
 
   void
@@ -187,6 +192,7 @@ private:
   std::string                 m_Path;
   fs::path                    m_Output;
   OutputOptions               m_Options;
+  WarningSink                 m_Warn;
   ImageDescription            m_Description;
   PlainHeader                 m_Header;
   std::uint64_t               m_DataOffset = 0;
@@ -198,7 +204,7 @@ private:
 } // namespace
 
 std::unique_ptr<PieceWriter>
-CreatePlainPieceWriter(const std::string & path, const OutputOptions & options)
+CreatePlainPieceWriter(const std::string & path, const OutputOptions & options, const WarningSink & warn)
 {
-  return std::make_unique<PlainPieceWriter>(path, options);
+  return std::make_unique<PlainPieceWriter>(path, options, warn);
 }

@@ -55,6 +55,7 @@ PlainWriter::Begin(const ImageDescription & description)
   m_DataOffset = m_Header.IsDetached ? 0 : m_Header.Text.size();
   if (m_Header.IsDetached)
   {
+    WarnOfLinkToPair(m_Path, m_Warn);
     // Not while another run has named its voxels, and its header not yet.
     const FolderLock alone(m_Folder->GetOutput().parent_path());
     CheckDataFile(m_Folder->GetOutput(), m_Header.DataName);

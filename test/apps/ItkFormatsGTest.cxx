@@ -3,11 +3,13 @@
 #include "TestFolder.h"
 #include "VolumeTestImages.h"
 #include "formats/CreateVolume.h"
+#include "itk/ItkDescription.h"
 #include "itk/JpegIntegrity.h"
 #include "itk/LibraryReason.h"
 
 #include "itkJPEGImageIO.h"
 
+#include <cmath>
 #include <filesystem>
 #include <gtest/gtest.h>
 
@@ -103,6 +105,48 @@ TEST(ItkFormatsLimits, WhatIsLostIsSaid)
   auto micrometres = upright;
   micrometres.Metadata["DistanceUnits"] = "um";
   EXPECT_NE(WriteAndRead(folder / "a.nii", micrometres).find("the unit um"), std::string::npos);
+}
+
+// MINC's directions have three coordinates.
+TEST(ItkFormatsLimits, AnImageOfTwoAxesOfMincIsOneOfTwoAxesElsewhere)
+{
+  const TestFolder folder;
+  const auto       flat = MakeUpright({ 9, 7 }, ElementType::Int16);
+  EXPECT_EQ(WriteAndRead(folder / "a.mnc", flat), "");
+  const ImageDescription read = Open(folder / "a.mnc")->GetDescription();
+  EXPECT_EQ(read.Grid.Directions, flat.Grid.Directions);
+  for (const std::string name : { "a.mha", "a.nrrd", "a.nii" })
+  {
+    EXPECT_EQ(WriteAndRead(folder / name, read), "") << name;
+    EXPECT_EQ(Open(folder / name)->GetDescription().Grid.Directions, flat.Grid.Directions) << name;
+  }
+}
+
+TEST(ItkFormatsLimits, AnImageThatLeavesItsAxesHasNoPlacement)
+{
+  for (const double z : { 0.0, 1e-5, 0.6 })
+  {
+    const auto imageIO = itk::JPEGImageIO::New();
+    imageIO->SetNumberOfDimensions(2);
+    imageIO->SetComponentType(itk::IOComponentEnum::UCHAR);
+    for (const unsigned int axis : { 0u, 1u })
+    {
+      imageIO->SetDimensions(axis, 5);
+      imageIO->SetOrigin(axis, 3.0);
+    }
+    imageIO->SetDirection(0, std::vector<double>{ 0.0, -1.0, 0.0 });
+    imageIO->SetDirection(1, std::vector<double>{ std::sqrt(1.0 - z * z), 0.0, z });
+    std::string     warnings;
+    const auto      warn = [&](const std::string & text) { warnings += text; };
+    const ImageGrid grid = DescribeByItk("a file", *imageIO, warn).Grid;
+    const bool      isLeft = z > 0.1;
+    EXPECT_EQ(warnings.find("its origin and directions are left out") != std::string::npos, isLeft) << warnings;
+    EXPECT_EQ(grid.Origin, std::vector<double>(2, isLeft ? 0.0 : 3.0));
+    ASSERT_EQ(grid.Directions.size(), 2u);
+    EXPECT_EQ(grid.Directions[0], isLeft ? std::vector<double>({ 1.0, 0.0 }) : std::vector<double>({ 0.0, -1.0 }));
+    EXPECT_EQ(grid.Directions[1].size(), 2u);
+    EXPECT_NEAR(grid.Directions[1][isLeft ? 1 : 0], 1.0, 1e-9);
+  }
 }
 
 // Neither image could be read any more.

@@ -43,14 +43,27 @@ FitsSinglePrecision(const FuzzedNiftiHeader & header)
   return slope >= std::ldexp(1.0, -126) && largest * slope + std::abs(rescaling->second) <= mostOfSingle;
 }
 
-/** Whether the components are as many as its kind of voxels has. */
+/** Whether the components are as many as its kind of voxels has, single numbers, and the last axis that counts. */
 bool
 HasRightComponents(const FuzzedNiftiHeader & header)
 {
-  const unsigned components = header.Short(40) < 5 ? 1 : header.Short(50);
-  const auto     root = static_cast<unsigned>(std::sqrt(2.0 * components));
-  const bool     isTriangle = components < 32768 && root * (root + 1) == 2 * components;
-  return !header.IsNifti() || header.Short(68) != 1005 || isTriangle;
+  const unsigned                axes = header.Short(40);
+  const unsigned                components = axes < 5 ? 1 : header.Short(50);
+  const auto                    root = static_cast<unsigned>(std::sqrt(2.0 * components));
+  const bool                    isTriangle = components < 32768 && root * (root + 1) == 2 * components;
+  const FuzzedNiftiType * const type = header.FindType();
+  const bool                    isLonger = (axes >= 6 && header.Short(52) != 1) || (axes == 7 && header.Short(54) != 1);
+  const bool isOther = header.Short(68) != 1005 && header.Short(68) != 1006 && header.Short(68) != 1007;
+  return !header.IsNifti() || isOther ||
+         ((type == nullptr || type->Components == 1) && !isLonger && (header.Short(68) != 1005 || isTriangle));
+}
+
+/** Whether no axis in space has voxels of a negative length. */
+bool
+HasRightLengths(const FuzzedNiftiHeader & header)
+{
+  const unsigned axes = header.Short(40);
+  return !(header.Real(80) < 0.0) && !(axes >= 2 && header.Real(84) < 0.0) && !(axes >= 3 && header.Real(88) < 0.0);
 }
 
 /** Whether the files are what their header says. */
@@ -194,7 +207,7 @@ CheckPart(FuzzBytes & choices, VolumeReader & reader, const std::vector<char> & 
 
 /** What the header says besides its voxels. */
 void
-CheckPlacement(const NiftiHeader & header, const ImageDescription & description)
+CheckPlacement(const NiftiHeader & header, const ImageDescription & description, const bool hasRightLengths)
 {
   ImageGrid grid = description.Grid;
   header.CompleteUnits(grid);
@@ -203,7 +216,8 @@ CheckPlacement(const NiftiHeader & header, const ImageDescription & description)
   const std::string name = placement.GetName(grid);
   FuzzExpect(name == "sform" || name == "qform", "a placement that is none");
   FuzzExpect(placement.IsFinite() || placement.IsThere(), "a placement that is none is not finite");
-  FuzzExpect(placement.FindFault().empty() || placement.IsThere(), "a placement that is none has a fault");
+  FuzzExpect(placement.FindFault().empty() ? hasRightLengths : (!hasRightLengths || placement.IsThere()),
+             "voxels of a negative length, or a placement that is none has a fault");
   FuzzExpect(header.FindSpmParts().empty() || !placement.IsThere(), "a header of Analyze places its voxels");
   const std::size_t axes = grid.Size.size();
   FuzzExpect(axes < 3 || !(placement.LeavesAxes(axes) || placement.LiesBeside(axes)), "a volume has no place in space");
@@ -241,7 +255,7 @@ FuzzNifti(FuzzBytes & bytes, const FuzzFolder & folder)
   {
     return;
   }
-  CheckPlacement(found, *description);
+  CheckPlacement(found, *description, HasRightLengths(header));
   const auto reader = OpenPlainNifti(found, names, *description);
   const bool isLeft = !files->HasPlainVoxels || header.Short(68) == 1006 || header.GetOffset() != header.Real(108) ||
                       (rescaling && header.FindType()->Components > 1);

@@ -128,7 +128,10 @@ FuzzBinary(const Case & file)
     std::istringstream(voxels->substr(expected, 1024)) >> word;
     isRight = JudgeRest(word) == Rest::Right;
   }
-  const bool isRefused = IsRefused([&] { CheckVtkVoxels(file.Path, file.Description); });
+  bool       isWarned = false;
+  const auto warn = [&](const std::string &) { isWarned = true; };
+  const bool isRefused = IsRefused([&] { CheckVtkVoxels(file.Path, file.Description, warn); });
+  FuzzExpect(isRefused || isWarned || MakeSmall(word) != "scalars", "a VTK file's other values are left out silently");
   FuzzExpect(JudgeRest(word) == Rest::Open || isRefused != isRight,
              "a binary VTK file that is right is refused, or the other way round");
 }
@@ -151,8 +154,10 @@ FuzzText(const Case & file)
   const std::uint64_t                 voxels = file.Description.GetNumberOfVoxels();
   const std::size_t                   count = voxels * file.Numbers;
   std::vector<char>                   read;
-  const bool                          isRefused = IsRefused([&] { read = ReadVtkText(file.Path, file.Description); });
-  const auto                          text = TakeHeader(file.Text, voxels);
+  bool                                isWarned = false;
+  const auto                          warn = [&](const std::string &) { isWarned = true; };
+  const bool isRefused = IsRefused([&] { read = ReadVtkText(file.Path, file.Description, warn); });
+  const auto text = TakeHeader(file.Text, voxels);
   FuzzExpect(text || isRefused, "a VTK file without a header is read");
   if (!text)
   {
@@ -166,6 +171,7 @@ FuzzText(const Case & file)
   }
   word.clear();
   stream >> word;
+  FuzzExpect(isRefused || isWarned || MakeSmall(word) != "scalars", "a VTK text's other values are left out silently");
   const bool isOpen = JudgeRest(word) == Rest::Open ||
                       std::any_of(words.begin(), words.end(), [](const FuzzedWord & number) { return number.IsOpen; });
   const bool isRight =

@@ -161,6 +161,67 @@ class Nifti(ProgramTest):
                         self.refuse(name, f"{components} components", "intent_code", "1007")
                 os.remove(self.path(name))
 
+    def write_voxels(self, name, order, size, intent, datatype, bits):
+        """Voxels of 0 of any type, in a byte order, as one file or as two."""
+        offset = 0 if ".hdr" in name else 352
+        numbers = [("i", 0, 348), ("8h", 40, len(size), *size, *[1] * (7 - len(size))), ("h", 68, intent),
+                   ("2h", 70, datatype, bits), ("8f", 76, *[1] * 8), ("f", 108, offset), ("f", 112, 1)]
+        write_nifti(self.path("in.nii"), size, [0] * (math.prod(size) * bits // 16),
+                    [(order + kind, *rest) for kind, *rest in numbers] + ([] if offset else [("4s", 344, b"ni1\0")]))
+        with open(self.path("in.nii"), "rb") as file:
+            content = file.read()
+        os.remove(self.path("in.nii"))
+        parts = [(name, content)] if offset else [(name, content[:348]), (name.replace("hdr", "img"), content[352:])]
+        for part, data in parts:
+            with open(self.path(part), "wb") as file:
+                file.write(gzip.compress(data) if part.endswith(".gz") else data)
+        return [self.path(part) for part, _ in parts]
+
+    def test_vectors_of_complex_numbers_and_colours(self):
+        cases = [(name, order, intent, type_of, components) for name in ("a.nii", "a.nii.gz", "a.hdr", "a.hdr.gz")
+                 for order in "<>" for intent in (1005, 1006, 1007)
+                 for type_of in ((32, 64), (1792, 128), (128, 24), (2304, 32)) for components in (1, 3)]
+        for name, order, intent, type_of, components in cases[::5]:
+            with self.subTest(name=name, order=order, intent=intent, type_of=type_of, components=components):
+                files = self.write_voxels(name, order, [*SIZE, 1, components], intent, *type_of)
+                # Some versions of ITK take displacements for an image of five axes.
+                is_image = intent == 1006 and components > 1
+                self.refuse(name, *(() if is_image else (f"intent_code {intent}", "complex numbers or colours")))
+                for file in files:
+                    os.remove(file)
+        for name, order in (("a.nii", ">"), ("a.nii.gz", "<"), ("a.hdr", "<")):
+            for type_of in ((32, 64), (128, 24)):
+                files = self.write_voxels(name, order, [*SIZE, 1, 1], 0, *type_of)
+                self.assertEqual(self.read(name).numbers("ElementNumberOfChannels"), [2 if type_of[0] == 32 else 3])
+                for file in files:
+                    os.remove(file)
+
+    def test_vectors_of_more_than_five_axes(self):
+        for intent in (1005, 1006, 1007):
+            for size in ([7, 6, 5, 1, 1, 3], [7, 6, 5, 1, 3, 2], [7, 6, 5, 2, 3, 1, 2], [7, 6, 1, 1, 1, 1, 3]):
+                for name in ("in.nii", "in.nii.gz"):
+                    write_nifti(self.path(name), size, noise(math.prod(size)), [("<h", 68, intent)])
+                    self.refuse(name, *(() if intent == 1006 else (f"intent_code {intent}",)), f"{len(size)} axes")
+                    os.remove(self.path(name))
+        write_nifti(self.path("in.nii"), [7, 6, 5, 1, 3], noise(630), [("<h", 68, 1007)])
+        due = self.read("in.nii")
+        self.assertEqual(due.numbers("ElementNumberOfChannels"), [3])
+        for ones in ([1], [1, 1]):
+            write_nifti(self.path("in.nii"), [7, 6, 5, 1, 3, *ones], noise(630), [("<h", 68, 1007)])
+            self.assertEqual(self.read("in.nii").data, due.data)
+
+    def test_negative_lengths(self):
+        placements = ([], [("<h", 252, 1)], sform(([2, 0, 0], [0, 2, 0], [0, 0, 2]), [1, 2, 3])[:2])
+        for numbers in placements:
+            for axis in range(3):
+                for name in ("in.nii", "in.nii.gz"):
+                    lengths = [-2 if other == axis else 2 for other in range(3)]
+                    write_nifti(self.path(name), SIZE, VALUES, [*numbers, ("<3f", 80, *lengths)])
+                    self.refuse(name, "length of -2", f"pixdim[{axis + 1}] to 2")
+                    os.remove(self.path(name))
+        write_nifti(self.path("in.nii"), [7, 6], SLICE, [("<3f", 80, 2, 2, -2)])
+        self.assertEqual(self.read("in.nii").numbers("ElementSpacing"), [1, 1])
+
     def test_what_spm_writes_into_analyze(self):
         def warnings(*numbers):
             analyze = [("<f", 108, 0), ("<f", 112, 0), ("4s", 344, bytes(4))]

@@ -7,7 +7,7 @@ import struct
 import unittest
 
 from subdivide_volume_case import ProgramTest, noise
-from subdivide_volume_files import META_TYPES, joined, meta_header, write_meta
+from subdivide_volume_files import META_TYPES, Meta, joined, meta_header, write_meta
 
 NRRD_TYPES = {"B": "uchar", "b": "signed char", "H": "ushort", "h": "short", "I": "uint", "i": "int", "Q": "uint64",
               "q": "int64", "f": "float", "d": "double"}
@@ -148,6 +148,53 @@ class Text(ProgramTest):
             self.assertEqual(self.meta("binary.vtk", "found.mha").data, due, attribute)
             self.write("text.vtk", vtk("f", SIZE, attribute) + joined(values[:27 * count - 1]).encode())
             self.assert_fails(self.run_program(self.path("text.vtk"), self.path("out.mha"), "--quiet"), 1, "truncated")
+
+    def warnings(self, name):
+        result = self.run_program(self.path(name), self.path("found.mha"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return [line for line in result.stderr.splitlines() if "warning" in line]
+
+    def test_other_arrays_of_vtk(self):
+        values = noise(27)
+        write_meta(self.path("in.mha"), SIZE, "h", values)
+        due = self.meta("in.mha", "due.mha").data
+        other = "SCALARS q short\nLOOKUP_TABLE default\n"
+        notes = "METADATA\nINFORMATION 0\n\n"
+        for encoding in ("ASCII", "BINARY"):
+            def part(numbers, encoding=encoding):
+                return joined(numbers).encode() if encoding == "ASCII" else struct.pack(f">{len(numbers)}h", *numbers)
+            table = ("LOOKUP_TABLE t 2\n", joined([0.5] * 8).encode() if encoding == "ASCII" else bytes([10, 13] * 4))
+            header = vtk("h", SIZE, "SCALARS Mean short 1\nLOOKUP_TABLE default").replace(b"ASCII", encoding.encode())
+            start, first = header.split(b"SCALARS")
+            first = b"SCALARS" + first + part(values)
+            for rest, is_other in (("", False), (notes, False), (table, False), (other, True), (notes + other, True),
+                                   ("VECTORS v short\n", True), ("FIELD FieldData 1\nf 1 27 short\n", True),
+                                   ("CELL_DATA 8\nSCALARS c short\n", True), ("NORMALS n short\n", True)):
+                rest, data = rest if isinstance(rest, tuple) else (rest, part(values[::-1]) if is_other else b"")
+                for more in (b"", b"\n" + other.encode() + part(values)) if rest else (b"",):
+                    for gap in (b"\n", b" " if encoding == "ASCII" else b""):
+                        with self.subTest(encoding=encoding, rest=rest, more=more, gap=gap):
+                            self.write("a.vtk", start + first + gap + rest.encode() + data + more)
+                            found = self.warnings("a.vtk")
+                            self.assertEqual(len(found), 1 if is_other or more else 0, found)
+                            self.assertTrue(all("only 'Mean' is read" in line for line in found), found)
+                            self.assertEqual(Meta(self.path("found.mha")).data, due)
+            self.write("a.vtk", start + b"NORMALS n short\n" + part([1] * 81) + b"\n" + first)
+            self.assertEqual(["only 'Mean' is read" in line for line in self.warnings("a.vtk")], [True])
+            self.assertEqual(Meta(self.path("found.mha")).data, due)
+
+    def test_one_slice_of_vtk(self):
+        values = noise(9)
+        for encoding in ("ASCII", "BINARY"):
+            data = joined(values).encode() if encoding == "ASCII" else struct.pack(">9h", *values)
+            for z, count in (("0", 0), ("30", 1), ("-1e-3", 1), ("0.0", 0)):
+                header = vtk("h", [3, 3, 1]).replace(b"ASCII", encoding.encode())
+                self.write("a.vtk", header.replace(b"ORIGIN 0 0 0", b"ORIGIN -10 20 " + z.encode()) + data)
+                found = self.warnings("a.vtk")
+                self.assertEqual(["position across those is left out" in line for line in found], [True] * count)
+                self.assertEqual(Meta(self.path("found.mha")).numbers("Offset"), [-10.25, 19.75])
+        self.write("a.vtk", vtk("h", SIZE).replace(b"ORIGIN 0 0 0", b"ORIGIN 0 0 7") + joined(noise(27)).encode())
+        self.assertEqual(self.warnings("a.vtk"), [])
 
     def test_all_types(self):
         self.assertEqual(set(META_TYPES), set(NRRD_TYPES))

@@ -162,8 +162,8 @@ FindVolumeFormat(const std::string & path)
 }
 
 std::unique_ptr<VolumeReader>
-OpenByItk(const std::string & path, const InputOptions &, const WarningSink &)
+OpenByItk(const std::string & path, const InputOptions &, const WarningSink & warn)
 {
   const VolumeFormat * const format = FindVolumeFormat(path);
-  return std::make_unique<ItkReader>(path, format == nullptr ? "" : format->Name);
+  return std::make_unique<ItkReader>(path, format == nullptr ? "" : format->Name, warn);
 }

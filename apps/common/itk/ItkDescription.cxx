@@ -7,6 +7,7 @@
 #include "itkMetaDataObject.h"
 #include "itkVersion.h"
 
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -57,15 +58,28 @@ GetMetadata(const itk::MetaDataDictionary & dictionary)
   return metadata;
 }
 
-/** Takes the placement from an image of fewer than three axes whose grid cannot have it. */
+/** Takes from directions the coordinates of axes that an image does not have.
+ * \return whether they were others than 0 */
+bool
+LeaveOutCoordinates(ImageGrid & grid)
+{
+  constexpr double rounding = 1e-4;
+  bool             leavesAxes = false;
+  for (std::vector<double> & direction : grid.Directions)
+  {
+    for (std::size_t row = grid.Size.size(); row < direction.size(); ++row)
+    {
+      leavesAxes = leavesAxes || !(std::abs(direction[row]) <= rounding);
+    }
+    direction.resize(grid.Size.size());
+  }
+  return leavesAxes;
+}
+
 void
-LeaveOutPlacement(const std::string & path, const itk::ImageIOBase & imageIO, ImageGrid & grid)
+LeaveOutPlacement(ImageGrid & grid)
 {
   const std::size_t axes = grid.Size.size();
-  if (std::string(imageIO.GetNameOfClass()) != "NiftiImageIO" || !ReadNiftiHeader(path).GetPlacement().LeavesAxes(axes))
-  {
-    return;
-  }
   for (std::size_t axis = 0; axis < axes; ++axis)
   {
     grid.Origin[axis] = 0.0;
@@ -87,7 +101,7 @@ CompleteUnits(const std::string & path, const itk::ImageIOBase & imageIO, ImageG
 } // namespace
 
 ImageDescription
-DescribeByItk(const std::string & path, const itk::ImageIOBase & imageIO)
+DescribeByItk(const std::string & path, const itk::ImageIOBase & imageIO, const WarningSink & warn)
 {
   ImageDescription description;
   for (unsigned int axis = 0; axis < imageIO.GetNumberOfDimensions(); ++axis)
@@ -103,7 +117,17 @@ DescribeByItk(const std::string & path, const itk::ImageIOBase & imageIO)
   description.Kind = GetKind(imageIO);
   description.Format = GetFormatName(imageIO);
   description.Metadata = GetMetadata(imageIO.GetMetaDataDictionary());
-  LeaveOutPlacement(path, imageIO, description.Grid);
+  const std::size_t axes = description.Grid.Size.size();
+  if (LeaveOutCoordinates(description.Grid))
+  {
+    LeaveOutPlacement(description.Grid);
+    warn(path + " is placed in space, where an image of " + std::to_string(axes) + (axes == 1 ? " axis" : " axes") +
+         " cannot be: its origin and directions are left out");
+  }
+  if (description.Format == "NIfTI" && ReadNiftiHeader(path).GetPlacement().LeavesAxes(axes))
+  {
+    LeaveOutPlacement(description.Grid);
+  }
   CheckDescription(path, description);
   CompleteUnits(path, imageIO, description.Grid);
   return description;

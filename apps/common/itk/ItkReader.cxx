@@ -158,7 +158,7 @@ IsWhole(const std::vector<std::uint64_t> & size, const Box & box)
 }
 } // namespace
 
-ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
+ItkReader::ItkReader(const std::string & path, const std::string & meantFormat, const WarningSink & warn)
   : m_Path(path)
 {
   const WatchedTask task("cannot read " + path);
@@ -218,7 +218,7 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   {
     FailToRead(path, colourFault);
   }
-  m_Description = DescribeByItk(path, *m_ImageIO);
+  m_Description = DescribeByItk(path, *m_ImageIO, warn);
   m_ReadsParts = ReadsRegions(*m_ImageIO);
   if (library != "VTKImageIO")
   {
@@ -226,11 +226,11 @@ ItkReader::ItkReader(const std::string & path, const std::string & meantFormat)
   }
   else if (m_ImageIO->GetFileType() == itk::IOFileEnum::ASCII)
   {
-    m_Whole = ReadVtkText(path, m_Description);
+    m_Whole = ReadVtkText(path, m_Description, warn);
   }
   else
   {
-    CheckVtkVoxels(path, m_Description);
+    CheckVtkVoxels(path, m_Description, warn);
   }
 }
 

@@ -15,8 +15,12 @@ class ItkReader : public VolumeReader
 {
 public:
   /** \param meantFormat the one that the name's ending says, for messages; empty for none
+   * \param warn is told what of the file the image does not have
    * \throw std::runtime_error that says why the file cannot be read, or is not whole */
-  explicit ItkReader(const std::string & path, const std::string & meantFormat = {});
+  explicit ItkReader(
+    const std::string & path,
+    const std::string & meantFormat = {},
+    const WarningSink & warn = [](const auto &) {});
 
   ~ItkReader() override;
 

@@ -37,6 +37,11 @@ constexpr int Rgb24 = 128;
 constexpr int Complex128 = 1792;
 constexpr int Rgba32 = 2304;
 
+/** Intents of voxels of several components: symmetric matrices, displacements, vectors. */
+constexpr int SymmetricMatrices = 1005;
+constexpr int Displacements = 1006;
+constexpr int Vectors = 1007;
+
 /** Millimetres in the unit of space; what is none of the known units is taken for millimetres. */
 double
 GetMillimetres(unsigned int units)
@@ -197,7 +202,7 @@ NiftiHeader::CountComponentsSideBySide() const
 bool
 NiftiHeader::HoldsDisplacements() const
 {
-  return this->Get<std::int16_t>(Intent) == 1006;
+  return this->Get<std::int16_t>(Intent) == Displacements;
 }
 
 std::optional<std::pair<double, double>>
@@ -292,17 +297,47 @@ NiftiHeader::FindFault() const
     return "its header has an intercept of " + FormatReal(intercept) +
            ", but a slope of 0, which programs take in different ways; set scl_slope to 1 or scl_inter to 0";
   }
-  const int components = this->Get<std::int16_t>(Dimensions) >= 5 ? this->Get<std::int16_t>(Dimensions + 10) : 1;
-  if (this->IsNifti() && this->Get<std::int16_t>(Intent) == 1005 && !AreOfSymmetricMatrix(components))
+  const std::string fault = this->FindComponentFault();
+  if (!fault.empty())
   {
-    return "its header says that its voxels are symmetric matrices (intent_code 1005), but " +
-           std::to_string(components) + " components are none; set intent_code to 1007 if they are vectors";
+    return fault;
   }
   const auto rescaling = this->GetRescaling();
   if (rescaling && component && !FitsSinglePrecision(*rescaling, *component))
   {
     return "its slope and intercept (scl_slope, scl_inter) make numbers that are too small or too large for single "
            "precision; save them in another unit";
+  }
+  return {};
+}
+
+std::string
+NiftiHeader::FindComponentFault() const
+{
+  const int intent = this->Get<std::int16_t>(Intent);
+  if (!this->IsNifti() || intent < SymmetricMatrices || intent > Vectors)
+  {
+    return {};
+  }
+  const std::string which = " (intent_code " + std::to_string(intent) + ")";
+  if (this->CountComponentsSideBySide() > 1)
+  {
+    return "its header says that its voxels are vectors or matrices" + which +
+           " of complex numbers or colours (datatype), which are not supported; set intent_code to 0 if each voxel is "
+           "one of these";
+  }
+  const int axes = this->Get<std::int16_t>(Dimensions);
+  if ((axes >= 6 && this->Get<std::int16_t>(Dimensions + 12) != 1) ||
+      (axes >= 7 && this->Get<std::int16_t>(Dimensions + 14) != 1))
+  {
+    return "its header says that its voxels are vectors or matrices" + which + ", but it has " + std::to_string(axes) +
+           " axes; up to 4, and a fifth for the components, are supported";
+  }
+  const int components = axes >= 5 ? this->Get<std::int16_t>(Dimensions + 10) : 1;
+  if (intent == SymmetricMatrices && !AreOfSymmetricMatrix(components))
+  {
+    return "its header says that its voxels are symmetric matrices" + which + ", but " + std::to_string(components) +
+           " components are none; set intent_code to 1007 if they are vectors";
   }
   return {};
 }
@@ -340,6 +375,7 @@ NiftiHeader::GetPlacement() const
   {
     numbers.Rows[i / 4][i % 4] = this->Get<float>(Rows + 4 * i);
   }
+  numbers.Axes = std::clamp<int>(this->Get<std::int16_t>(Dimensions), 1, 3);
   numbers.Sign = this->Get<float>(Spacings) < 0 ? -1.0 : 1.0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {

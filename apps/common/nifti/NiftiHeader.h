@@ -95,6 +95,8 @@ private:
   template <typename T>
   T
   Get(std::size_t offset) const;
+  std::string
+  FindComponentFault() const;
   bool
   IsNifti() const;
 

@@ -18,6 +18,18 @@ JoinLengths(const std::array<double, 3> & lengths)
   return text.str();
 }
 
+/** Some programs turn an axis of a negative length round, some take its absolute value, and some take it for 1. */
+std::string
+ExplainNegativeLength(const std::size_t axis, const double length)
+{
+  const std::string  name = "pixdim[" + std::to_string(axis + 1) + "]";
+  std::ostringstream text;
+  text << "its voxels have a negative length of " << length << " (" << name
+       << "), which programs take in different ways; set " << name << " to " << -length
+       << ", and turn the axis round by the qform if that is meant";
+  return text.str();
+}
+
 bool
 AreOne(const std::array<double, 3> & a, const std::array<double, 3> & b, double tolerance)
 {
@@ -159,6 +171,13 @@ NiftiPlacement::GetMatrixSpacing() const
 std::string
 NiftiPlacement::FindFault() const
 {
+  for (std::size_t axis = 0; axis < m_Numbers.Axes; ++axis)
+  {
+    if (m_Numbers.Spacing[axis] < 0.0)
+    {
+      return ExplainNegativeLength(axis, m_Numbers.Spacing[axis]);
+    }
+  }
   constexpr double most = 1e-2;
   const bool       isMatrixAlone = m_Numbers.HasMatrix && !m_Numbers.HasQuaternion;
   return isMatrixAlone && !AreOne(this->GetMatrixSpacing(), m_Numbers.Spacing, most) ? this->ExplainRefusal() : "";

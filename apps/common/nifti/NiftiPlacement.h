@@ -23,6 +23,7 @@ public:
     bool                  HasMatrix = false;
     std::array<double, 6> Quaternion{}; // b, c and d, then the offsets
     Matrix                Rows{};
+    std::size_t           Axes = 3;   // of the image, in space
     double                Sign = 1.0; // of the third axis of the quaternion
     std::array<double, 3> Spacing{};
     std::array<double, 3> Size{};
@@ -59,7 +60,8 @@ public:
   bool
   LiesBeside(std::size_t axes) const;
 
-  /** What a matrix that is the only placement has of other lengths of voxels than the header; empty if nothing. */
+  /** Why its voxels' lengths are wrong: one is negative, or a matrix that is the only placement has others; empty if
+   * they are not. */
   std::string
   FindFault() const;
 

@@ -26,6 +26,13 @@ public:
   void
   Add(std::string_view part);
 
+  /** Whether as many as are due have been read. */
+  bool
+  AreAll() const
+  {
+    return m_Done == m_Count;
+  }
+
   /** To be called after the last part.
    * \return the first word after the numbers; empty if none is there
    * \throw std::runtime_error if there are fewer numbers */

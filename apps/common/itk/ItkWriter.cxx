@@ -8,6 +8,7 @@
 #include "itk/PixelComponent.h"
 #include "itk/WrittenImage.h"
 #include "nifti/NiftiFiles.h"
+#include "nifti/ReplacedPair.h"
 #include "system/files/CurrentFolder.h"
 #include "system/files/InputFile.h"
 #include "system/files/OutputFile.h"

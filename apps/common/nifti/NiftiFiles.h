@@ -42,9 +42,4 @@ ListWrittenPair(const std::string & path);
 std::vector<std::filesystem::path>
 ListOtherPair(const std::string & path);
 
-/** Other programs, too, call a header .hdr and its voxels .img: such a pair does not give way to one of NIfTI.
- * \throw std::runtime_error if an image written under the name would replace both files of it */
-void
-CheckReplacedPair(const std::string & path);
-
 #endif

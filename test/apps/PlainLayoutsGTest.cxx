@@ -3,6 +3,7 @@
 #include "TestFolder.h"
 #include "VolumeTestImages.h"
 
+#include "headers/NrrdHeader.h"
 #include "itk/ItkReader.h"
 
 #include <gtest/gtest.h>
@@ -293,6 +294,17 @@ TEST(NrrdLayouts, ComponentsAsTheLastAxisKeepTheGridAndTheFrame)
       EXPECT_NE(folder.ReadFile("b.nrrd").find(std::string("\nmeasurement frame: ") + frame + '\n'), std::string::npos);
     }
   }
+}
+
+TEST(NrrdLayouts, AnAxisOfNoLengthIsRefusedWhereComponentsAreTheLastOne)
+{
+  const TestFolder folder;
+  folder.WriteFile("a.nrrd",
+                   MakeNrrdHeader("3 4 3",
+                                  "endian: little\nspace dimension: 2\nkinds: space space vector\n"
+                                  "space directions: (0,0) (0,1) none\n\n") +
+                     CountUp(0, 36));
+  EXPECT_NE(GetError([&] { DescribeNrrd(folder / "a.nrrd"); }).find("spacing of its axis 0"), std::string::npos);
 }
 
 // ITK turns the other coordinate up to version 5.2, and what the own reader does not understand is ITK's to describe.

@@ -218,6 +218,7 @@ DescribeNrrd(const std::string & path)
   axes.MoveComponentsFirst();
   DescribeNumbers(path, fields, layout);
   axes.Describe(layout.Description);
+  CheckDescription(path, layout.Description);
   CopyMetadata(path, fields, layout.Description);
   return layout.Description;
 }

@@ -16,6 +16,7 @@
 #include "commandline/Warnings.h"
 #include "dicom/Dicom.h"
 #include "formats/CreateVolume.h"
+#include "formats/Formats.h"
 #include "formats/InputSafety.h"
 #include "formats/OpenVolume.h"
 #include "headers/Metadata.h"
@@ -71,6 +72,17 @@ Open(const Options & options, Warnings & warnings)
   return reader;
 }
 
+void
+WarnOfFrame(const Options & options, const ImageDescription & input, Warnings & warnings)
+{
+  const VolumeFormat * const format = FindVolumeFormat(options.Output);
+  if (LosesMeasurementFrame(input, format != nullptr && std::string(format->Name) == "NRRD"))
+  {
+    warnings.Add(options.Output +
+                 " cannot hold the measurement frame that the components of the image, or its gradients, refer to");
+  }
+}
+
 std::unique_ptr<VolumeWriter>
 Create(const Options & options, const VolumeReader & reader, unsigned int threads, Warnings & warnings)
 {
@@ -78,6 +90,7 @@ Create(const Options & options, const VolumeReader & reader, unsigned int thread
   writing.Threads = threads;
   auto writer = CreateVolume(options.Output, writing, [&warnings](const std::string & text) { warnings.Add(text); });
   CheckInputStays(options.Input, reader, options.Output, *writer, InPlace::Allowed);
+  WarnOfFrame(options, reader.GetDescription(), warnings);
   return writer;
 }
 
@@ -230,6 +243,7 @@ SubdividePiece(const Options & options)
   const auto         writer =
     CreatePieceWriter(options.Output, options.Writing, [&warnings](const std::string & text) { warnings.Add(text); });
   CheckInputStays(options.Input, *reader, options.Output, *writer, InPlace::Refused);
+  WarnOfFrame(options, reader->GetDescription(), warnings);
   LevelChain chain(reader->GetDescription(), options, threads);
   writer->Begin(chain.GetOutput());
   PieceFolder folder(writer->GetOutput(), options.Piece.Pieces);

@@ -177,6 +177,55 @@ TEST_F(DicomFramesTest, ASliceWithoutARescaleAmongOthersIsNamed)
   EXPECT_TRUE(HasWords(GetRefusal(), { "1 of its 3 slices (1)", "intercept" }));
 }
 
+TEST_F(DicomFramesTest, ASliceThatLacksEitherTheSlopeOrTheInterceptOfOthersIsNamed)
+{
+  constexpr std::uint32_t slope = 0x00281053;
+  constexpr std::uint32_t intercept = 0x00281052;
+  const auto              getRefusal = [this](const char * slopes, const char * intercepts, auto && change) {
+    for (int i = 0; i < 3; ++i)
+    {
+      DicomTestData slice = MakeSlice(i, i);
+      slice.SetRescale(slopes, intercepts);
+      if (i == 1)
+      {
+        change(slice);
+      }
+      slice.Write(m_Folder / std::to_string(i));
+    }
+    return GetRefusal();
+  };
+  for (const bool isEmpty : { false, true })
+  {
+    const auto withoutSlope = [&](DicomTestData & slice) {
+      isEmpty ? slice.Set(slope, "DS", "") : slice.Remove(slope);
+    };
+    const auto withoutIntercept = [&](DicomTestData & slice) {
+      isEmpty ? slice.Set(intercept, "DS", "") : slice.Remove(intercept);
+    };
+    EXPECT_TRUE(HasWords(getRefusal("1", "-1024", withoutIntercept), { "1 of its 3 slices (1)", "tell an intercept" }));
+    EXPECT_TRUE(HasWords(getRefusal("2", "0", withoutSlope), { "1 of its 3 slices (1)", "tell a slope" }));
+    EXPECT_EQ(getRefusal("1", "-1024", withoutSlope), "");
+    EXPECT_EQ(getRefusal("2", "0", withoutIntercept), "");
+  }
+  // One of those that tell the slope has 1 by chance, as in PET, where each slice has its own.
+  const auto withoutSlope = [&](DicomTestData & slice) { slice.Remove(slope); };
+  getRefusal("1", "0", withoutSlope);
+  DicomTestData last = MakeSlice(2, 2);
+  last.SetRescale("3", "0");
+  last.Write(m_Folder / "2");
+  EXPECT_TRUE(HasWords(GetRefusal(), { "1 of its 3 slices (1)", "tell a slope" }));
+}
+
+TEST_F(DicomFramesTest, AFrameThatLacksTheInterceptOfOthersIsNamed)
+{
+  DicomTestData both;
+  both.SetRescale("1", "-1024");
+  DicomTestData whole;
+  whole.SetItems(0x00289145, { both });
+  EXPECT_TRUE(HasWords(GetRefusalOf(MakeStack({ whole, whole, MakeRescale("1") }, m_Measures)),
+                       { "1 of its 3 slices (frame 3 of e.dcm)", "intercept" }));
+}
+
 TEST_F(DicomFramesTest, FilesOfFramesThatDifferAreNamed)
 {
   MakeStack(m_Nothing, m_Measures).Write(m_Folder / "a.dcm");

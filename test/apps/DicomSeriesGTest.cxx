@@ -296,6 +296,53 @@ TEST_F(DicomSeriesTest, ImagesWithoutPositionAreStackedOnDemandOnly)
   EXPECT_EQ(Read<std::int16_t>(*Open(options)), Expect({ 3 }));
 }
 
+TEST_F(DicomSeriesTest, GapsInTheNumbersOfImagesWithoutPositionAreWarnedOf)
+{
+  const auto write = [this](const std::vector<std::string> & numbers) {
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+    {
+      DicomTestData slice = MakeSlice(static_cast<int>(i), 0);
+      slice.Remove(0x00200032);
+      slice.Set(0x00200013, "IS", numbers[i]);
+      slice.Write(m_Folder / std::to_string(i));
+    }
+  };
+  InputOptions options;
+  options.Spacing = { 1, 1, 1 };
+  write({ "-1", "1", "4", "2" });
+  EXPECT_EQ(Read<std::int16_t>(*Open(options)), Expect({ 0, 1, 3, 2 }));
+  ASSERT_EQ(m_Warnings.size(), 2U);
+  EXPECT_TRUE(HasWords(m_Warnings[1], { "the DICOM series lacks the slices with the numbers 0, 3: " }));
+  write({ "1", "3", "7", "5" });
+  Open(options);
+  ASSERT_EQ(m_Warnings.size(), 2U);
+  EXPECT_TRUE(HasWords(m_Warnings[1], { "the slices of the DICOM series are numbered in steps of 2" }));
+  for (const char * const other : { "3", "", "2.5" })
+  {
+    write({ "1", "3", other, "2" });
+    EXPECT_TRUE(HasWords(GetRefusal(options), { "no position", "needs different instance numbers" }));
+  }
+}
+
+TEST_F(DicomSeriesTest, AFolderThatMayNotBeEnteredIsNamed)
+{
+  WriteSlices(3, 1);
+  const auto hidden = m_Folder / "hidden";
+  MakeSlice(3, 3).Write(hidden / "3");
+  std::filesystem::permissions(hidden, std::filesystem::perms::none);
+  // For the superuser, no folder is closed.
+  if (std::error_code error; (std::filesystem::directory_iterator(hidden, error), error))
+  {
+    EXPECT_TRUE(HasWords(GetRefusal(), { "cannot read " + hidden.string(), "Permission denied" }));
+    EXPECT_THROW(ListDicomSeries(m_Folder.string()), std::runtime_error);
+    std::filesystem::rename(hidden, m_Folder / "lost+found");
+    EXPECT_EQ(Read<std::int16_t>(*Open()), Expect({ 0, 1, 2 }));
+    std::filesystem::rename(m_Folder / "lost+found", hidden);
+  }
+  std::filesystem::permissions(hidden, std::filesystem::perms::owner_all);
+  EXPECT_EQ(Read<std::int16_t>(*Open()), Expect({ 0, 1, 2, 3 }));
+}
+
 TEST_F(DicomSeriesTest, OutputIsRefused)
 {
   try

@@ -46,6 +46,15 @@ TEST(LibraryMessages, WarningsAreFoundOnceInOneLineEach)
   EXPECT_TRUE(FindLibraryWarnings("an error\n\nforewarnings\n").empty());
 }
 
+TEST(LibraryMessages, LinesOfSourceCodeAreLeftOut)
+{
+  EXPECT_EQ(RemoveSourceLines("Error: In ./Source/gdcmReader.cxx, line 382, function bool gdcm::Read()\n"
+                              "Attempt to read file with VR16bits\n"
+                              "Program: ./Source/gdcmElement.txx:46: void Read(): Assertion `0 && \"no\"' failed.\n"
+                              "a.h is no image: 3\n"),
+            "Attempt to read file with VR16bits\na.h is no image: 3\n");
+}
+
 TEST(RegularInput, PipesSocketsAndDevicesAreRefused)
 {
   const auto getRefusal = [](const std::string & path) -> std::string {

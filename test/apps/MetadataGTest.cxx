@@ -139,3 +139,21 @@ TEST(Metadata, NoKeyBecomesAField)
     }
   }
 }
+
+TEST(Metadata, AMeasurementFrameIsLostUnlessTheOutputIsAnNrrdOfItsAxes)
+{
+  const std::string frame = "(0,1,0) (1,0,0) (0,0,1)";
+  const auto        loses = [](const std::string & format, const std::string & value, std::size_t axes, bool isToNrrd) {
+    ImageDescription description = MakeWithMetadata(format, { { "NRRD_measurement frame", value } });
+    description.Grid.Size.resize(axes, 2);
+    EXPECT_EQ(SelectMetadata(description, MetadataStyle::Nrrd, false).Fields.count("measurement frame"),
+              format == "NRRD" && axes == 3 && value.front() == '(' ? 1u : 0u);
+    return LosesMeasurementFrame(description, isToNrrd);
+  };
+  EXPECT_TRUE(loses("NRRD", frame, 3, false));
+  EXPECT_FALSE(loses("NRRD", frame, 3, true));
+  EXPECT_TRUE(loses("NRRD", frame, 4, true));
+  EXPECT_FALSE(loses("NRRD", "(1,0,0) (0,1,0) (0,0,1)", 3, false));
+  EXPECT_FALSE(loses("NRRD", "none none none", 3, false));
+  EXPECT_FALSE(loses("MetaImage", frame, 3, false));
+}

@@ -3,6 +3,7 @@
 #include "TestFolder.h"
 #include "VolumeTestImages.h"
 
+#include "headers/NrrdHeader.h"
 #include "itk/ItkReader.h"
 
 #include <gtest/gtest.h>
@@ -245,6 +246,81 @@ TEST(NrrdLayouts, TheFrameOfComponentsIsTurnedWithTheSpace)
   EXPECT_EQ(getFrame("RAS", "(1,2,3) (4,5,6) ( 7, 8, 9 )"), "(-1,-2,3) (-4,-5,6) (-7,-8,9)");
   EXPECT_EQ(getFrame("LAS", "(1,2,3) (4,5,6) (7,-8,9)"), "(1,-2,3) (4,-5,6) (7,8,9)");
   EXPECT_EQ(getFrame("RAS", "none none none"), "");
+}
+
+// The same header, with the components as the first axis and as the last, says the same.
+TEST(NrrdLayouts, ComponentsAsTheLastAxisKeepTheGridAndTheFrame)
+{
+  const TestFolder folder;
+  const auto       open = [&](const std::string & space, const std::string & kind, bool isLast) {
+    const std::string count = kind == "list" || kind == "vector" ? "3" : "6";
+    const auto        order = [isLast](const std::string & own, const std::string & others) {
+      return isLast ? others + ' ' + own : own + ' ' + others;
+    };
+    folder.WriteFile("a.nrrd",
+                     MakeNrrdHeader(order(count, "3 4 5"),
+                                    "endian: little\nspace: " + space + "\nkinds: " + order(kind, "space space space") +
+                                      "\nspace directions: " + order("none", "(0.6,0.8,0) (-1.6,1.2,0) (0,0,3)") +
+                                      "\nspace origin: (1,2,3)\nmeasurement frame: (1,2,3) (4,5,6) (7,8,9)\n" +
+                                      "space units: \"um\" \"um\" \"um\"\nmodality:=DWMRI\n\n") +
+                       CountUp(0, count == "3" ? 180 : 360));
+    return Open(folder / "a.nrrd");
+  };
+  for (const char * const kind : { "list", "vector", "3D-symmetric-matrix" })
+  {
+    for (const auto & [space, x, y, frame] :
+         { std::tuple("left-posterior-superior", 1.0, 1.0, "(1,2,3) (4,5,6) (7,8,9)"),
+           std::tuple("right-anterior-superior", -1.0, -1.0, "(-1,-2,3) (-4,-5,6) (-7,-8,9)"),
+           std::tuple("left-anterior-superior", 1.0, -1.0, "(1,-2,3) (4,-5,6) (7,-8,9)"),
+           std::tuple("scanner-xyz", 1.0, 1.0, "(1,2,3) (4,5,6) (7,8,9)") })
+    {
+      SCOPED_TRACE(std::string(kind) + ' ' + space);
+      const auto   first = open(space, kind, false);
+      const auto   last = open(space, kind, true);
+      const auto & grid = last->GetDescription().Grid;
+      EXPECT_EQ(grid.Size, (std::vector<std::uint64_t>{ 3, 4, 5 }));
+      EXPECT_EQ(grid.Origin, (std::vector<double>{ x, 2 * y, 3 }));
+      ASSERT_EQ(grid.Directions.size(), 3u);
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        EXPECT_NEAR(grid.Spacing[i], static_cast<double>(i + 1), 1e-12);
+        EXPECT_NEAR(grid.Directions[0][i], (std::array{ 0.6 * x, 0.8 * y, 0.0 })[i], 1e-12);
+        EXPECT_NEAR(grid.Directions[1][i], (std::array{ -0.8 * x, 0.6 * y, 0.0 })[i], 1e-12);
+      }
+      EXPECT_EQ(last->GetDescription().Kind, first->GetDescription().Kind);
+      EXPECT_EQ(last->GetDescription().NumberOfComponents, first->GetDescription().NumberOfComponents);
+      EXPECT_EQ(last->GetDescription().Metadata, first->GetDescription().Metadata);
+      WriteVolume(folder / "b.nrrd", last->GetDescription(), ReadVoxels(*last, GetWholeBox({ 3, 4, 5 })));
+      EXPECT_NE(folder.ReadFile("b.nrrd").find(std::string("\nmeasurement frame: ") + frame + '\n'), std::string::npos);
+    }
+  }
+}
+
+TEST(NrrdLayouts, AnAxisOfNoLengthIsRefusedWhereComponentsAreTheLastOne)
+{
+  const TestFolder folder;
+  folder.WriteFile("a.nrrd",
+                   MakeNrrdHeader("3 4 3",
+                                  "endian: little\nspace dimension: 2\nkinds: space space vector\n"
+                                  "space directions: (0,0) (0,1) none\n\n") +
+                     CountUp(0, 36));
+  EXPECT_NE(GetError([&] { DescribeNrrd(folder / "a.nrrd"); }).find("spacing of its axis 0"), std::string::npos);
+}
+
+// ITK turns the other coordinate up to version 5.2, and what the own reader does not understand is ITK's to describe.
+TEST(NrrdLayouts, LeftAnteriorSuperiorIsRefusedWhereComponentsAreAmongTheAxes)
+{
+  const TestFolder folder;
+  const auto       getError = [&folder](const std::string & space) {
+    folder.WriteFile("a.nrrd",
+                     MakeNrrdHeader("3 4 3 5",
+                                    "endian: little\nkinds: space space vector space\nspace: " + space +
+                                      "\nspace directions: (1,0,0) (0,2,0) none (0,0,3)\n\n") +
+                       CountUp(0, 180));
+    return GetError([&] { Open(folder / "a.nrrd"); });
+  };
+  EXPECT_EQ(getError("right-anterior-superior"), "");
+  EXPECT_NE(getError("LAS").find("a.nrrd: with axes like its own, the space left-anterior"), std::string::npos);
 }
 
 // The space of a space with time, which stays the fourth coordinate.

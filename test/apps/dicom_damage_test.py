@@ -44,6 +44,10 @@ class Damage(unittest.TestCase):
                 self.assertEqual((result.returncode, result.stdout), (1, ""))
                 self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
                 self.assertIn("slice1.dcm", result.stderr)
+                self.assertNotRegex(result.stderr, r"gdcm|[ch]xx|Assertion")
+
+    def test_a_file_of_its_first_letters_alone_is_damaged(self):
+        self.assertIn("the DICOM file is damaged", self.read(self.content[:132]).stderr)
 
     def test_damaged_bytes_end_in_one_line_or_not_at_all(self):
         source = random.Random(3)

@@ -121,6 +121,22 @@ class Headers(ProgramTest):
                 self.assertAlmostEqual(found, wanted / 2)
                 self.assertAlmostEqual(origin, start - wanted / 4)
 
+    def test_gradients_of_nrrd_keep_the_frame_that_they_refer_to(self):
+        write_nrrd(self.path("in.nrrd"), [*SIZE, 2], "h", VALUES + VALUES, more=[
+            "space: right-anterior-superior", "space directions: (1,0,0) (0,1,0) (0,0,1) none",
+            "kinds: space space space list", "measurement frame: (0,1,0) (1,0,0) (0,0,1)",
+            "DWMRI_gradient_0000:=1 0 0", "DWMRI_gradient_0001:=0 1 0"])
+        for name, *options in (["out.nrrd"], ["out.nhdr", "--compress"]):
+            result = self.run_program(self.path("in.nrrd"), self.path(name), "--keep-metadata", *options)
+            self.assertEqual((result.returncode, result.stderr.count("warning")), (0, 0), result.stderr)
+            with open(self.path(name), "rb") as file:
+                header = file.read().split(b"\n\n")[0].decode()
+            self.assertIn("\nmeasurement frame: (0,-1,0) (-1,0,0) (0,0,1)\n", header)
+            self.assertIn("\nDWMRI_gradient_0001:=0 1 0", header)
+        for name, *options in (["out.mha"], ["out.nii"], ["slices/"], ["pieces.mhd", "--piece", "1/2"]):
+            result = self.run_program(self.path("in.nrrd"), self.path(name), "--keep-metadata", *options)
+            self.assertIn("cannot hold the measurement frame", result.stderr)
+
     def test_symmetric_tensors_of_nrrd_stay_such(self):
         values = noise(6 * len(VALUES))
         write_nrrd(self.path("in.nrrd"), [6, *SIZE], "h", values, more=["kinds: 3D-symmetric-matrix domain domain domain"])

@@ -38,7 +38,8 @@ ReadFrame(const gdcm::DataSet & data, DicomFrame & frame)
   }
   const auto slope = GetDicomNumber(data, Tag(0x0028, 0x1053));
   const auto intercept = GetDicomNumber(data, Tag(0x0028, 0x1052));
-  frame.IsRescaleTold = frame.IsRescaleTold || slope || intercept;
+  frame.IsSlopeTold = frame.IsSlopeTold || slope;
+  frame.IsInterceptTold = frame.IsInterceptTold || intercept;
   frame.Slope = slope.value_or(frame.Slope);
   frame.Intercept = intercept.value_or(frame.Intercept);
 }
@@ -204,7 +205,9 @@ ReadDicomFrames(const gdcm::DataSet & data, DicomHeader & header)
   Spacings   spacings;
   ReadFrame(data, common);
   spacings.Read(data);
-  common.Slope = GetDicomNumber(data, Tag(0x3004, 0x000e)).value_or(common.Slope);
+  const auto doseScaling = GetDicomNumber(data, Tag(0x3004, 0x000e));
+  common.IsSlopeTold = common.IsSlopeTold || doseScaling;
+  common.Slope = doseScaling.value_or(common.Slope);
   for (const gdcm::DataSet & detector : GetDicomItems(data, Tag(0x0054, 0x0022)))
   {
     ReadFrame(detector, common);

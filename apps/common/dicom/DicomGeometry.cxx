@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dicom/DicomGeometry.h"
 #include "dicom/DicomPositions.h"
+#include "volumes/NumberGaps.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
@@ -66,10 +68,27 @@ AreClose(const std::optional<std::array<double, Size>> & a,
   return true;
 }
 
-bool
-IsIdentity(const DicomSlice & slice)
+/** Numbers that are stored alike would be values of other units where a slice lacks a slope or an intercept that is of
+ * use in others. */
+void
+CheckRescaleIsTold(const std::vector<DicomSlice> & slices)
 {
-  return slice.GetFrame().Slope == 1 && slice.GetFrame().Intercept == 0;
+  const auto isAny = [&slices](auto && isSo) {
+    return std::any_of(
+      slices.begin(), slices.end(), [&isSo](const DicomSlice & slice) { return isSo(slice.GetFrame()); });
+  };
+  if (isAny([](const DicomFrame & frame) { return frame.Slope != 1; }))
+  {
+    CheckAllAlike(slices, "whether they tell a slope", [](const DicomSlice & a, const DicomSlice & b) {
+      return a.GetFrame().IsSlopeTold == b.GetFrame().IsSlopeTold;
+    });
+  }
+  if (isAny([](const DicomFrame & frame) { return frame.Intercept != 0; }))
+  {
+    CheckAllAlike(slices, "whether they tell an intercept", [](const DicomSlice & a, const DicomSlice & b) {
+      return a.GetFrame().IsInterceptTold == b.GetFrame().IsInterceptTold;
+    });
+  }
 }
 
 void
@@ -89,13 +108,43 @@ CheckSlicesAreAlike(const std::vector<DicomSlice> & slices)
     const auto & spacing = a.GetFrame().PixelSpacing;
     return AreClose(spacing, b.GetFrame().PixelSpacing, spacing ? 1e-4 * (*spacing)[0] : 0);
   });
-  // Numbers that are stored alike would be values of other units.
-  CheckAllAlike(slices, "whether they tell a slope and an intercept", [](const DicomSlice & a, const DicomSlice & b) {
-    return a.GetFrame().IsRescaleTold == b.GetFrame().IsRescaleTold || (IsIdentity(a) && IsIdentity(b));
-  });
+  CheckRescaleIsTold(slices);
   CheckAllAlike(slices, "that they have no position", [](const DicomSlice & a, const DicomSlice & b) {
     return a.GetFrame().Position.has_value() == b.GetFrame().Position.has_value();
   });
+}
+
+/** Whether the order of slices that are sorted by their numbers is told: the files have different whole numbers, or are
+ * one. */
+bool
+AreNumbered(const std::vector<DicomSlice> & slices)
+{
+  constexpr double largest = 1e15; // doubles count up to it
+  const auto       isNumbered = [](const DicomSlice & slice) {
+    const auto number = slice.Header->InstanceNumber;
+    return number && std::abs(*number) <= largest && *number == std::floor(*number);
+  };
+  const auto areOfOneFile = [](const DicomSlice & a, const DicomSlice & b) { return a.Header == b.Header; };
+  const auto areTwins = [&](const DicomSlice & a, const DicomSlice & b) {
+    return !areOfOneFile(a, b) && a.Header->InstanceNumber == b.Header->InstanceNumber;
+  };
+  return std::adjacent_find(slices.begin(), slices.end(), std::not_fn(areOfOneFile)) == slices.end() ||
+         (std::all_of(slices.begin(), slices.end(), isNumbered) &&
+          std::adjacent_find(slices.begin(), slices.end(), areTwins) == slices.end());
+}
+
+void
+WarnOfInstanceGaps(const std::vector<DicomSlice> & slices, const WarningSink & warn)
+{
+  std::vector<std::int64_t> numbers;
+  for (std::size_t i = 0; i < slices.size(); ++i)
+  {
+    if (i == 0 || slices[i].Header != slices[i - 1].Header)
+    {
+      numbers.push_back(static_cast<std::int64_t>(slices[i].Header->InstanceNumber.value_or(0)));
+    }
+  }
+  WarnOfNumberGaps("the DICOM series", numbers, warn);
 }
 
 /** Slices that bear no position: one is chosen, or all are stacked in the order of their numbers. */
@@ -119,17 +168,17 @@ ArrangeWithoutPositions(std::vector<DicomSlice> slices, const InputOptions & opt
   {
     return slices;
   }
-  const auto twin = std::adjacent_find(
-    slices.begin(), slices.end(), [&key](const auto & a, const auto & b) { return key(a) == key(b); });
-  if (!options.Spacing || options.Spacing->size() < 3 || twin != slices.end())
+  const bool areNumbered = AreNumbered(slices);
+  if (!options.Spacing || options.Spacing->size() < 3 || !areNumbered)
   {
     throw std::runtime_error(
       "its " + std::to_string(slices.size()) +
       " images bear no position; choose one with --frame, counted from 0, or have them stacked in "
       "the order of their numbers with --spacing X,Y,Z" +
-      (twin == slices.end() ? "" : ", which needs different instance numbers"));
+      (areNumbered ? "" : ", which needs different instance numbers"));
   }
   warn("the DICOM images bear no position; they are stacked in the order of their numbers");
+  WarnOfInstanceGaps(slices, warn);
   return slices;
 }
 

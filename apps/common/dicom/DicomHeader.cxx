@@ -152,9 +152,14 @@ ReadDicomHeader(const fs::path & path)
   {
     Fail(path, std::strerror(errno));
   }
+  const bool     isClaimed = ClaimsToBeDicom(path);
+  constexpr auto startBytes = 132; // the preamble and the letters
+  if (isClaimed && fs::file_size(path) <= startBytes)
+  {
+    FailOfDamage(path); // GDCM would abort
+  }
   gdcm::Reader reader;
   reader.SetStream(file);
-  const bool isClaimed = ClaimsToBeDicom(path);
   if (!reader.CanRead() || !reader.ReadUpToTag(PixelDataTag, { PixelDataTag }))
   {
     if (isClaimed)

@@ -17,7 +17,8 @@ struct DicomFrame
   std::optional<std::array<double, 6>> Orientation;  // of the rows, then of the columns
   std::optional<std::array<double, 2>> PixelSpacing; // mm, along x and y
   std::optional<double>                SliceSpacing; // mm, from slice to slice or of one slice
-  bool                                 IsRescaleTold = false;
+  bool                                 IsSlopeTold = false;
+  bool                                 IsInterceptTold = false;
   double                               Slope = 1; // value = slope * stored + intercept
   double                               Intercept = 0;
   std::vector<double>                  PhaseKey; // sorts the images that stand at one position

@@ -20,13 +20,31 @@ FindFiles(const fs::path & path)
   }
   const fs::path        folder = isIndex ? fs::absolute(path).parent_path() : path;
   std::vector<fs::path> files;
-  for (const fs::directory_entry & entry :
-       fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied))
+  fs::path              last = folder;
+  std::error_code       error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
   {
-    if (entry.is_regular_file())
+    last = entry->path();
+    std::error_code unknown;
+    const bool      isFile = entry->is_regular_file(unknown);
+    if (unknown && unknown != std::errc::no_such_file_or_directory) // as where a link leads nowhere
     {
-      files.push_back(entry.path());
+      error = unknown;
+      break;
     }
+    if (isFile)
+    {
+      files.push_back(last);
+    }
+    else if (last.filename() == "lost+found")
+    {
+      entry.disable_recursion_pending(); // the file system's own, which users may not enter
+    }
+  }
+  if (error)
+  {
+    throw std::runtime_error("cannot read " + last.string() + ": " + error.message() +
+                             "; it may hold slices: make it readable, or move it out of the folder that is searched");
   }
   std::sort(files.begin(), files.end());
   return files;

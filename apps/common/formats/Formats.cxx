@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/Formats.h"
+#include "itk/ItkNrrdReader.h"
 #include "itk/ItkReader.h"
 #include "itk/ItkWriter.h"
 #include "itk/JpegOrientation.h"
@@ -25,7 +26,7 @@ OpenMeta(const std::string & path, const InputOptions &, const WarningSink &)
 
 /** By the own reader where that understands all of the header, else by ITK's. */
 std::unique_ptr<VolumeReader>
-OpenAnyNrrd(const std::string & path, const InputOptions & options, const WarningSink & warn)
+OpenAnyNrrd(const std::string & path, const InputOptions &, const WarningSink &)
 {
   try
   {
@@ -34,7 +35,7 @@ OpenAnyNrrd(const std::string & path, const InputOptions & options, const Warnin
   catch (const HeaderNotUnderstood &)
   {
     const std::uint64_t      bytes = CheckNrrdNumbers(path);
-    auto                     reader = OpenByItk(path, options, warn);
+    auto                     reader = std::make_unique<ItkNrrdReader>(path);
     const ImageDescription & description = reader->GetDescription();
     if (description.GetBytes() != bytes)
     {

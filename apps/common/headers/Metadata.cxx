@@ -123,6 +123,15 @@ AddUnit(const ImageDescription & description, MetadataStyle style, OutputMetadat
   }
 }
 
+/** A vector for each axis, or nothing: another number of them would make a damaged NRRD. */
+std::string
+GetMeasurementFrame(const ImageDescription & description)
+{
+  const std::string frame = CleanValue(Find(description, "NRRD_measurement frame"));
+  const auto        vectors = static_cast<std::size_t>(std::count(frame.begin(), frame.end(), '('));
+  return vectors == description.Grid.Size.size() ? frame : "";
+}
+
 /** What an NRRD says besides the grid that another NRRD can say, too. */
 void
 AddNrrdFields(const ImageDescription & description, OutputMetadata & output)
@@ -133,13 +142,15 @@ AddNrrdFields(const ImageDescription & description, OutputMetadata & output)
   {
     output.Fields["space"] = space;
   }
-  for (const char * const name : { "sample units", "measurement frame" })
+  const std::string units = CleanValue(Find(description, "NRRD_sample units"));
+  if (!units.empty())
   {
-    const std::string value = CleanValue(Find(description, std::string("NRRD_") + name));
-    if (!value.empty())
-    {
-      output.Fields[name] = value;
-    }
+    output.Fields["sample units"] = units;
+  }
+  const std::string frame = GetMeasurementFrame(description);
+  if (!frame.empty())
+  {
+    output.Fields["measurement frame"] = frame;
   }
 }
 
@@ -171,6 +182,14 @@ GetUnit(const ImageDescription & description)
   const auto        first = nrrd.find('"');
   const auto        last = first == std::string::npos ? first : nrrd.find('"', first + 1);
   return last == std::string::npos ? "" : SpellUnit(nrrd.substr(first + 1, last - first - 1));
+}
+
+bool
+LosesMeasurementFrame(const ImageDescription & input, const bool isToNrrd)
+{
+  const std::string frame = Find(input, "NRRD_measurement frame");
+  return input.Format == "NRRD" && frame.find('(') != std::string::npos && frame != "(1,0,0) (0,1,0) (0,0,1)" &&
+         (!isToNrrd || GetMeasurementFrame(input).empty());
 }
 
 bool

@@ -33,6 +33,11 @@ SelectMetadata(const ImageDescription & description, MetadataStyle style, bool k
 bool
 IsLabelMap(const std::string & path, const ImageDescription & description);
 
+/** Whether the components of an image, or its gradients, refer to a frame other than the space (NRRD's measurement
+ * frame) that an output lacks: only NRRD holds it, and only with a vector for each axis. */
+bool
+LosesMeasurementFrame(const ImageDescription & input, bool isToNrrd);
+
 /** The unit of an image's spacing and origin: mm, um, cm, m or another; empty if nothing says so. */
 std::string
 GetUnit(const ImageDescription & description);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -57,6 +58,13 @@ SplitVectors(const std::string & text)
     words.push_back(word);
   }
   return words;
+}
+
+/** Whether an axis of a kind, in small letters, is one of the grid. */
+bool
+IsDomain(const std::string & kind)
+{
+  return kind == "domain" || kind == "space" || kind == "time" || kind == "none" || kind == "???";
 }
 
 /** The space of a space with time, as NRRD names both: RAS of RAST; any other as it is. */
@@ -139,6 +147,20 @@ NrrdAxes::NrrdAxes(const std::string & path, const NrrdFields & fields)
   {
     FailToRead(path, "its header has not a kind for each axis");
   }
+  m_Order.resize(m_Count);
+  std::iota(m_Order.begin(), m_Order.end(), std::size_t{ 0 });
+}
+
+void
+NrrdAxes::MoveComponentsFirst()
+{
+  if (m_Kinds.empty() || IsDomain(ToLower(m_Kinds.back())))
+  {
+    return;
+  }
+  std::rotate(m_Kinds.rbegin(), m_Kinds.rbegin() + 1, m_Kinds.rend());
+  std::rotate(m_Sizes.rbegin(), m_Sizes.rbegin() + 1, m_Sizes.rend());
+  std::rotate(m_Order.rbegin(), m_Order.rbegin() + 1, m_Order.rend());
 }
 
 void
@@ -194,7 +216,7 @@ NrrdAxes::FindComponents(ImageDescription & description) const
                  "its voxels are of the kind " + m_Kinds[axis] +
                    ", of which the mask cannot be kept; save them as a vector, or without the mask");
     }
-    const bool isDomain = kind == "domain" || kind == "space" || kind == "time" || kind == "none" || kind == "???";
+    const bool isDomain = IsDomain(kind);
     if (!isDomain && (axis > 0 || found == componentKinds.end()))
     {
       throw HeaderNotUnderstood("an axis of the kind " + kind);
@@ -240,14 +262,14 @@ NrrdAxes::FindDirections(std::size_t first, ImageGrid & grid) const
   {
     FailToRead(m_Path, "its header has not a space direction for each axis");
   }
-  if (first == 1 && words[0] != "none")
+  if (first == 1 && words[m_Order[0]] != "none")
   {
     throw HeaderNotUnderstood("components with a direction");
   }
   const auto signs = GetSigns(ToLower(m_Fields.Find("space").value_or("")), axes);
   for (std::size_t axis = 0; axis < axes; ++axis)
   {
-    const auto vector = ParseVector(m_Path, words[first + axis], axes);
+    const auto vector = ParseVector(m_Path, words[m_Order[first + axis]], axes);
     if (!vector)
     {
       throw HeaderNotUnderstood("an axis without a direction");
@@ -290,7 +312,7 @@ NrrdAxes::FindSpacings(std::size_t first, ImageGrid & grid) const
   }
   for (std::size_t axis = 0; axis < grid.Size.size(); ++axis)
   {
-    const std::size_t i = first + axis;
+    const std::size_t i = m_Order[first + axis];
     const auto        parse = [&](const char * field, const std::vector<std::string> & words) {
       return words.empty() ? std::nan("") : ParseReal(m_Path, field, words[i]);
     };

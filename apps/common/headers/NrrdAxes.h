@@ -15,6 +15,10 @@ public:
   /** Both must live as long as this. */
   NrrdAxes(const std::string & path, const NrrdFields & fields);
 
+  /** Takes the last axis for the first one, if it is of components. */
+  void
+  MoveComponentsFirst();
+
   /** Fills in the grid, the number of components and what they mean.
    * \throw HeaderNotUnderstood or std::runtime_error */
   void
@@ -44,6 +48,7 @@ private:
   std::size_t                m_Count = 0;
   std::vector<std::uint64_t> m_Sizes;
   std::vector<std::string>   m_Kinds;
+  std::vector<std::size_t>   m_Order; // which axis of the file is the first, the second, ...
 };
 
 /** 1 for each coordinate of a space, given in small letters, that points as in the LPS space, -1 if the other way. */

@@ -208,6 +208,34 @@ ReadNrrdHeader(const std::string & path)
   return layout;
 }
 
+ImageDescription
+DescribeNrrd(const std::string & path)
+{
+  const InputFile  file(path);
+  const NrrdFields fields(file);
+  PlainLayout      layout;
+  NrrdAxes         axes(path, fields);
+  axes.MoveComponentsFirst();
+  DescribeNumbers(path, fields, layout);
+  axes.Describe(layout.Description);
+  CheckDescription(path, layout.Description);
+  CopyMetadata(path, fields, layout.Description);
+  return layout.Description;
+}
+
+void
+ReplaceNrrdMetadata(const std::string & path, ImageDescription & description)
+{
+  const InputFile  file(path);
+  const NrrdFields fields(file);
+  const auto       signs = GetSigns(ToLower(fields.Find("space").value_or("")), 2);
+  if (signs[0] != signs[1]) // ITK up to 5.2 turns left where anterior is to be turned
+  {
+    FailToRead(path, "with axes like its own, the space left-anterior-superior is not supported; save it in another");
+  }
+  CopyMetadata(path, fields, description);
+}
+
 PlainLayout
 ReadNrrdNumbers(const std::string & path)
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slices/SliceNames.h"
+#include "volumes/NumberGaps.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <stdexcept>
 
 namespace fs = std::filesystem;
@@ -182,33 +182,12 @@ SortByNumber(const fs::path & folder, std::vector<SplitName> & names, std::size_
 void
 WarnOfGaps(const fs::path & folder, const std::vector<SplitName> & names, const WarningSink & warn)
 {
-  std::uint64_t step = 0;
-  for (std::size_t i = 1; i < names.size(); ++i)
+  std::vector<std::int64_t> numbers;
+  for (const SplitName & name : names)
   {
-    step = std::gcd(step, names[i].Number - names[i - 1].Number);
+    numbers.push_back(static_cast<std::int64_t>(name.Number));
   }
-  std::uint64_t missing = 0;
-  std::string   list;
-  for (std::size_t i = 1; i < names.size(); ++i)
-  {
-    const std::uint64_t absent = (names[i].Number - names[i - 1].Number) / step - 1;
-    for (std::uint64_t k = 1; k <= absent && missing + k <= 5; ++k)
-    {
-      list += (list.empty() ? "" : ", ") + std::to_string(names[i - 1].Number + k * step);
-    }
-    missing += absent;
-  }
-  if (missing > 0)
-  {
-    warn("the folder " + folder.string() + " lacks the slices with the numbers " + list +
-         (missing > 5 ? " and " + std::to_string(missing - 5) + " others" : "") +
-         ": those that are there are taken for neighbours");
-  }
-  if (step > 1)
-  {
-    warn("the slices of the folder " + folder.string() + " are numbered in steps of " + std::to_string(step) +
-         ": they are taken for neighbours");
-  }
+  WarnOfNumberGaps("the folder " + folder.string(), numbers, warn);
 }
 } // namespace
 

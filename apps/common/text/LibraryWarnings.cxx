@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <sstream>
 
 namespace
 {
@@ -35,4 +36,17 @@ FindLibraryWarnings(const std::string & all)
     }
   }
   return found;
+}
+
+std::string
+RemoveSourceLines(const std::string & text)
+{
+  static const std::regex place("\\.(c|cc|cpp|cxx|txx|h|hpp|hxx)(:|, line )[0-9]");
+  std::istringstream      lines(text);
+  std::string             left;
+  for (std::string line; std::getline(lines, line);)
+  {
+    left += std::regex_search(line, place) ? "" : line + '\n';
+  }
+  return left;
 }

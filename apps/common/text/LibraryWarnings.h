@@ -10,4 +10,8 @@
 std::vector<std::string>
 FindLibraryWarnings(const std::string & text);
 
+/** What libraries printed, without the lines that tell places in source code, as failed assertions do. */
+std::string
+RemoveSourceLines(const std::string & text);
+
 #endif

@@ -4,6 +4,7 @@
 #include "system/process/LibraryMessages.h"
 #include "system/process/RunRecord.h"
 #include "system/process/Terminal.h"
+#include "text/LibraryWarnings.h"
 #include "text/OneLineMessage.h"
 
 #include <algorithm>
@@ -247,7 +248,7 @@ std::string
 QuoteLibraries()
 {
   constexpr std::size_t most = 400;
-  const std::string     all = LibraryMessages::GetWholeText();
+  const std::string     all = RemoveSourceLines(LibraryMessages::GetWholeText());
   std::string           text = all.size() > most ? "... " + all.substr(all.size() - most) : all;
   // It may quote a damaged file.
   std::replace_if(text.begin(), text.end(), [](char c) { return (c < ' ' && c != '\n') || c > '~'; }, '?');

@@ -5,6 +5,9 @@
 #include "DicomTestData.h"
 #include "dicom/Dicom.h"
 
+#include "gdcmImageChangeTransferSyntax.h"
+#include "gdcmImageReader.h"
+#include "gdcmImageWriter.h"
 #include "gtest/gtest.h"
 
 #include <cstdlib>
@@ -57,6 +60,25 @@ protected:
     {
       MakeSlice(i, i * spacing).Write(m_Folder / std::to_string(i));
     }
+  }
+
+  /** Encodes the pixels of a file in another way. */
+  void
+  Encode(const std::string & name, const gdcm::TransferSyntax & syntax)
+  {
+    const std::string path = (m_Folder / name).string();
+    gdcm::ImageReader reader;
+    reader.SetFileName(path.c_str());
+    ASSERT_TRUE(reader.Read());
+    gdcm::ImageChangeTransferSyntax change;
+    change.SetTransferSyntax(syntax);
+    change.SetInput(reader.GetImage());
+    ASSERT_TRUE(change.Change());
+    gdcm::ImageWriter writer;
+    writer.SetFileName(path.c_str());
+    writer.SetFile(reader.GetFile());
+    writer.SetImage(change.GetOutput());
+    ASSERT_TRUE(writer.Write());
   }
 
   std::unique_ptr<VolumeReader>

@@ -45,6 +45,7 @@ OpenAnyNrrd(const std::string & path, const InputOptions &, const WarningSink &)
   }
 }
 
+/** But of one that is left out whole, which the description of the image tells. */
 void
 WarnOfPlacement(const std::string &    path,
                 const NiftiPlacement & placement,
@@ -52,16 +53,14 @@ WarnOfPlacement(const std::string &    path,
                 const WarningSink &    warn)
 {
   const std::size_t axes = grid.Size.size();
-  const std::string places = path + " is placed in space, where an image of " + std::to_string(axes) +
-                             (axes == 1 ? " axis" : " axes") + " cannot be: its ";
   if (placement.LeavesAxes(axes))
   {
-    warn(places + "origin and directions are left out");
     return;
   }
   if (placement.LiesBeside(axes))
   {
-    warn(places + "position across " + (axes == 1 ? "that" : "those") + " is left out");
+    warn(path + " is placed in space, where an image of " + std::to_string(axes) + (axes == 1 ? " axis" : " axes") +
+         " cannot be: its position across " + (axes == 1 ? "that" : "those") + " is left out");
   }
   if (placement.IsTwice())
   {

@@ -118,15 +118,12 @@ DescribeByItk(const std::string & path, const itk::ImageIOBase & imageIO, const 
   description.Format = GetFormatName(imageIO);
   description.Metadata = GetMetadata(imageIO.GetMetaDataDictionary());
   const std::size_t axes = description.Grid.Size.size();
-  if (LeaveOutCoordinates(description.Grid))
+  const bool        leavesAxes = LeaveOutCoordinates(description.Grid);
+  if (leavesAxes || (description.Format == "NIfTI" && ReadNiftiHeader(path).GetPlacement().LeavesAxes(axes)))
   {
     LeaveOutPlacement(description.Grid);
     warn(path + " is placed in space, where an image of " + std::to_string(axes) + (axes == 1 ? " axis" : " axes") +
          " cannot be: its origin and directions are left out");
-  }
-  if (description.Format == "NIfTI" && ReadNiftiHeader(path).GetPlacement().LeavesAxes(axes))
-  {
-    LeaveOutPlacement(description.Grid);
   }
   CheckDescription(path, description);
   CompleteUnits(path, imageIO, description.Grid);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "itk/Bitmap.h"
+#include "itk/FileLength.h"
 #include "itk/JpegIntegrity.h"
 #include "itk/JpegOrientation.h"
 #include "itk/LibraryReason.h"
@@ -124,22 +125,16 @@ private:
   void
   CheckEnds(const std::string & format) const
   {
+    if (format == "BMP")
+    {
+      CheckBmpLength(m_Path);
+      return;
+    }
     const InputFile     file(m_Path);
     const std::uint64_t tail = std::min<std::uint64_t>(file.GetSize(), 4096);
     const std::string   end = file.ReadTextAt(file.GetSize() - tail, tail);
-    const std::string   start = file.ReadTextAt(0, 6);
     const char * const  sign = format == "PNG" ? "IEND" : "\xFF\xD9";
-    bool                isWhole = end.find(sign) != std::string::npos;
-    if (format == "BMP")
-    {
-      std::uint64_t size = 0;
-      for (std::size_t byte = 6; start.size() == 6 && byte-- > 2;)
-      {
-        size = 256 * size + static_cast<unsigned char>(start[byte]);
-      }
-      isWhole = file.GetSize() >= size && start.size() == 6;
-    }
-    if (!isWhole)
+    if (end.find(sign) == std::string::npos)
     {
       this->Fail("it is truncated");
     }
